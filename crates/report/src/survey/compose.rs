@@ -1,13 +1,13 @@
 //! Composition of the document of a survey: its sections and their contents.
 
 use super::document::{Document, DocumentSection, SectionBlock, TableCell};
-use super::entry::{self, blocks, independence, involution};
+use super::entry::{self, blocks, in_involution, independence, involution};
 use super::picture;
 use liouville::case::Case;
 use liouville::verdict::CaseReport;
 use liouville_search::survey::{
-    Description, HierarchyPlace, IntegralCount, Integrals, LiouvilleProof, MeasureStatus,
-    SearchOutcome, Survey, TestedClaim,
+    Description, HierarchyPlace, IntegralCount, Integrals, MeasureStatus, SearchOutcome, Survey,
+    TestedClaim,
 };
 
 /// Composes the document of a survey; `origin` names the program and the case.
@@ -253,25 +253,6 @@ fn integrals(survey: &Survey) -> Vec<SectionBlock> {
         found.push(involution(&proof.claim));
     }
     found
-}
-
-/// What Liouville's theorem says of a system, with its hypotheses.
-fn in_involution(proof: &LiouvilleProof) -> String {
-    let bracket = match proof.bracket.as_str() {
-        "momenta" => "the canonical bracket of coordinates and momenta".to_string(),
-        "hamiltonian" => "the bracket of the system".to_string(),
-        name => format!("the bracket `{name}` of the file, which the motion preserves,"),
-    };
-    let count = proof.functions.len();
-    let names = proof.functions.join(", ");
-    let known = match count {
-        1 => format!("{names} alone is enough"),
-        _ => format!("{names} are in involution, and these {count} are enough"),
-    };
-    format!(
-        "In {bracket} {known} for Liouville's theorem. It speaks of joint levels that are compact and \
-         connected, and on which the gradients are independent; that a level is compact is not examined."
-    )
 }
 
 fn count(count: &IntegralCount, place: &HierarchyPlace) -> String {

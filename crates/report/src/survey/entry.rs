@@ -5,7 +5,7 @@ use crate::evidence::options;
 use liouville::verdict::{
     ClaimReport, DensitySign, Evidence, Flaw, Independence, Verdict, Witness,
 };
-use liouville_search::survey::TestedClaim;
+use liouville_search::survey::{LiouvilleProof, TestedClaim};
 
 /// Findings as blocks, one after the other.
 pub fn blocks(tested: &[TestedClaim]) -> Vec<SectionBlock> {
@@ -72,6 +72,25 @@ pub fn independence(claim: &ClaimReport) -> SectionBlock {
 pub fn involution(claim: &ClaimReport) -> SectionBlock {
     let what = "they are in involution and independent, and their fields span the joint levels";
     of_integrals(what, claim, Vec::new())
+}
+
+/// What Liouville's theorem says of a system, with its hypotheses.
+pub fn in_involution(proof: &LiouvilleProof) -> String {
+    let bracket = match proof.bracket.as_str() {
+        "momenta" => "the canonical bracket of coordinates and momenta".to_string(),
+        "hamiltonian" => "the bracket of the system".to_string(),
+        name => format!("the bracket `{name}` of the file, which the motion preserves,"),
+    };
+    let count = proof.functions.len();
+    let names = proof.functions.join(", ");
+    let known = match count {
+        1 => format!("{names} alone is enough"),
+        _ => format!("{names} are in involution, and these {count} are enough"),
+    };
+    format!(
+        "In {bracket} {known} for Liouville's theorem. It speaks of joint levels that are compact and \
+         connected, and on which the gradients are independent; that a level is compact is not examined."
+    )
 }
 
 fn of_integrals(what: &str, claim: &ClaimReport, remarks: Vec<String>) -> SectionBlock {
