@@ -10,8 +10,8 @@
 //! docs/soundness.md, "Cells".
 
 use crate::graph::{Expr, Fault, Graph, Step, record};
+use crate::number::UnaryFunction;
 use crate::number::rational::Rational;
-use crate::number::{BinaryOperation, UnaryFunction};
 use crate::scalar::Scalar;
 
 use super::classes::Classes;
@@ -54,6 +54,8 @@ pub struct CellChange<'c> {
     pub fixed: Option<(usize, bool)>,
     /// Place of a value, and whether it is positive (otherwise negative).
     pub chosen: Option<(usize, bool)>,
+    /// Whether the value is 0 on no open set.
+    pub is_strict: bool,
     /// Bound on the probability that the rewritings are wrong.
     pub certificate: Option<Certificate>,
 }
@@ -158,11 +160,8 @@ impl Cell {
             }
             if let Some((place, positive)) = change.chosen {
                 let value = values[place]?;
-                // A value with functions may be 0 though no symbols in their place make it so.
-                let fact = match has_function(&self.graph, place) {
-                    true => SignFact::NotNegative,
-                    false => SignFact::Positive,
-                };
+                let fact =
+                    if change.is_strict { SignFact::Positive } else { SignFact::NotNegative };
                 facts.push((if positive { value } else { -value }, fact));
             }
             Some((own, facts))
@@ -175,19 +174,6 @@ impl Cell {
         let fixed = self.fixed.iter().copied().chain(change.fixed).collect();
         Ok(Self { graph, values, facts, chosen, fixed, certificate })
     }
-}
-
-/// Whether a value is made of functions that symbols stand for.
-fn has_function(graph: &Graph, place: usize) -> bool {
-    let reached = graph.reached_from(&[place]);
-    let is_function = |step: Step<'_>| {
-        use UnaryFunction::{Atan, Cos, Exp, Ln, Sin};
-        matches!(
-            step,
-            Step::Unary(Exp | Ln | Sin | Cos | Atan, _) | Step::Binary(BinaryOperation::Pow, ..)
-        )
-    };
-    graph.steps().zip(reached).any(|(step, is_reached)| is_reached && is_function(step))
 }
 
 /// Lists the values under at most 0, 1, … nested roots, if some root follows one that is nested more

@@ -20,6 +20,7 @@ use super::rewrite::Rewrite;
 use super::roots::{RootFinder, RootSearch};
 use super::tower::{RootStatus, Tower};
 use super::trial::{Certificate, Roots, Trial, TrialResult, both};
+use super::vanishing::vanishes_nowhere_openly;
 use super::void::{is_lost, may_be_void};
 
 /// Largest number of cells.
@@ -114,6 +115,7 @@ impl Explorer<'_> {
                 }
                 Next::Divide { modulus, argument } => {
                     seen += 1;
+                    let is_strict = vanishes_nowhere_openly(&cell.graph, argument, self.sources);
                     for positive in [false, true] {
                         let rewrites =
                             [Rewrite::Signed { place: modulus, positive, is_implied: false }];
@@ -121,6 +123,7 @@ impl Explorer<'_> {
                         divided(CellChange {
                             rewrites: &rewrites,
                             chosen,
+                            is_strict,
                             ..CellChange::default()
                         })?;
                     }

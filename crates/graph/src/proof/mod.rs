@@ -85,6 +85,7 @@ mod squares;
 mod symbols;
 mod tower;
 mod trial;
+mod vanishing;
 mod void;
 
 pub use angles::{arguments as angle_arguments, without_arctangents};
