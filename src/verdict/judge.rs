@@ -6,7 +6,7 @@ use std::sync::{Mutex, PoisonError};
 use super::claim_state::{ClaimState, undecide};
 use super::conclude::report;
 use super::dissipation::find_rates;
-use super::evidence::ClaimReport;
+use super::evidence::{ClaimReport, Verdict};
 use super::judging::Judging;
 use super::listed_levels::{ListedUse, judge_each_listed};
 use super::mutants::{MutationReport, mutate};
@@ -14,7 +14,7 @@ use super::recorded::{RecordedClaim, SharedTerms};
 use super::sampler::TAPE_LANES;
 use crate::case::{Case, TimeParts};
 use crate::claim::LevelSubset;
-use crate::graph::{Expr, Fault, Graph, record};
+use crate::graph::{Fault, Graph, record};
 use crate::mechanics::Phase;
 use crate::mechanics::calculus::DualPoint;
 
@@ -345,11 +345,11 @@ fn judge_all(
         .iter()
         .zip(statuses)
         .map(|(item, status)| {
-            // The value of an ∫ is an input of its own.
-            let open = |value: &Expr| graph.inputs_of(*value).into_iter().any(|own| own >= inputs);
-            report(case, item, status, (options, item.residual.iter().any(open)))
+            let is_refuted = status.settled == Some(Verdict::Refuted);
+            let is_open = is_refuted && bench.depends_on_constants(item)?;
+            Ok(report(case, item, status, (options, is_open)))
         })
-        .collect();
+        .collect::<Result<_, JudgeError>>()?;
     judge_each_listed(case, options, &mut claims, &lists)?;
     find_rates(case, options, &mut claims)?;
     let mutants = options.mutants.then(|| mutate(case, &claims, options)).transpose()?;

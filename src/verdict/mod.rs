@@ -41,6 +41,7 @@ mod moduli;
 mod mutants;
 mod novelty;
 mod one_to_one;
+mod open_constants;
 mod overflow;
 mod parts;
 mod pass;

@@ -126,6 +126,9 @@ fn an_integral_that_changes_on_the_way_is_not_known() {
         "exp(ln((x*y' − y*x')²)/2)",
     ] {
         let found = only(&file(integral));
-        assert_eq!(found.verdict, Verdict::Refuted, "{integral}: {:?}", found.evidence);
+        // The angular momentum is an integral, and might be a polynomial in such a one.
+        assert_eq!(found.verdict, Verdict::Undecided, "{integral}: {:?}", found.evidence);
+        let reason = found.evidence.reason.unwrap_or_default();
+        assert!(reason.contains("not counted"), "{integral}: {reason}");
     }
 }
