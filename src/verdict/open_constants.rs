@@ -2,7 +2,7 @@
 //! perhaps, where they do not for those drawn.
 //!
 //! A residual R = c(x) e^(ks) of the value s, with k a number or a parameter, vanishes for all constants or
-//! for none: R(s + δ)/R(s) is one number for all states with the same parameters.
+//! for none: R(s + δ)/R(s) and R(s + 2δ)/R(s + δ) are one number for all states with the same parameters.
 
 use super::judging::Judging;
 use super::recorded::RecordedClaim;
@@ -49,7 +49,7 @@ impl Judging<'_> {
         self.graph.inputs_of(value).into_iter().filter(move |input| *input >= inputs)
     }
 
-    /// Whether R(s + δ)/R(s) is seen to be one number for all states with the same parameters.
+    /// Whether these ratios are seen to be one number for all states with the same parameters.
     fn is_multiple(
         &self,
         residual: Expr,
@@ -58,27 +58,32 @@ impl Judging<'_> {
     ) -> Result<bool, Fault> {
         let reached = self.graph.reached([residual]);
         let place = self.graph.place(residual);
-        let (graph, ratio) = record(self.graph.inputs(), |inputs| {
-            let mut shifted = inputs.to_vec();
-            shifted[constant] += Expr::rational(&Rational::new(29, 83));
-            let of = |inputs: &[Expr]| self.graph.repeated(&reached, inputs)[place];
-            Some(of(&shifted)? / of(inputs)?)
+        let (graph, ratios) = record(self.graph.inputs(), |inputs| {
+            let of = |shifts: i64| {
+                let mut shifted = inputs.to_vec();
+                shifted[constant] += Expr::rational(&Rational::new(29 * shifts, 83));
+                self.graph.repeated(&reached, &shifted)[place]
+            };
+            let values = [of(0)?, of(1)?, of(2)?];
+            Some([values[1] / values[0], values[2] / values[1]])
         })?;
-        let Some(ratio) = ratio else { return Ok(false) };
-        let values = Run::new(&graph, &[ratio], self.inputs).at(&Ball::<TAPE_LANES>, states);
-        let ratio = values.output(0);
+        let Some(ratios) = ratios else { return Ok(false) };
+        let values = Run::new(&graph, &ratios, self.inputs).at(&Ball::<TAPE_LANES>, states);
         let per_set = TAPE_LANES / SETS;
         let mut compared = 0;
         for set in 0..SETS {
-            let lanes = (set * per_set..(set + 1) * per_set).filter(|lane| ratio.is_defined(*lane));
-            let ends = lanes.map(|k| (ratio.mid[k] - ratio.rad[k], ratio.mid[k] + ratio.rad[k]));
+            let both = [values.output(0), values.output(1)].into_iter();
+            let ends = both.flat_map(|ratio| {
+                let lanes = (set * per_set..(set + 1) * per_set).filter(|k| ratio.is_defined(*k));
+                lanes.map(|k| (ratio.mid[k] - ratio.rad[k], ratio.mid[k] + ratio.rad[k]))
+            });
             let ends: Vec<(f64, f64)> = ends.collect();
             let highest_low = ends.iter().fold(f64::NEG_INFINITY, |low, own| low.max(own.0));
             let lowest_high = ends.iter().fold(f64::INFINITY, |high, own| high.min(own.1));
             if highest_low > lowest_high {
                 return Ok(false);
             }
-            compared += ends.len().saturating_sub(1);
+            compared += ends.len().saturating_sub(2);
         }
         Ok(compared > 0)
     }
