@@ -42,6 +42,7 @@ const TABLES: [&str; 17] = [
 /// Keys whose values are lists, or one text.
 const LISTS: [&str; 21] = [
     "independent",
+    "involution",
     "compatible",
     "bracket",
     "spectrum",
