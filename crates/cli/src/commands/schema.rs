@@ -40,7 +40,7 @@ const TABLES: [&str; 17] = [
 ];
 
 /// Keys whose values are lists, or one text.
-const LISTS: [&str; 21] = [
+const LISTS: [&str; 22] = [
     "independent",
     "involution",
     "compatible",
