@@ -20,7 +20,7 @@ const MOST: usize = 16;
 const OF_ENTRIES: &str = "the level, or the exponent of a power, depends on a vector or matrix with listed entries: \
                           write a separate case for each of its values";
 
-/// What listed values mean for a claim.
+/// Listed values that matter for a claim.
 pub(super) struct ListedUse {
     /// Listed values for which the claim says nothing.
     pub voids: Vec<Choice>,

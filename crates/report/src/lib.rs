@@ -16,7 +16,7 @@ mod verdicts;
 
 pub use annotations::annotations;
 pub use digest::{CaseDigest, VERSION, sha256};
-pub use verdicts::VerdictTable;
+pub use verdicts::{VerdictTable, inline};
 
 use std::collections::BTreeMap;
 use std::time::Duration;

@@ -10,13 +10,13 @@ use crate::motion::orbit::{Followed, MEASUREMENTS, Precision, Watch};
 use crate::motion::recorded::point;
 use crate::motion::start::Start;
 use crate::taylor::batch::each;
+use crate::taylor::watch::Domain;
 use crate::told::ToldShare;
 use liouville::case::Case;
-use liouville::graph::{Evaluator, Expr, Graph, Step, Tape, record};
+use liouville::graph::{Evaluator, Expr, Graph, Tape, record};
 use liouville::mechanics::Model;
 use liouville::number::double_double::{DoubleDouble, DoubleDoubles};
 use liouville::number::float::Float;
-use liouville::number::{BinaryOperation, UnaryFunction};
 
 /// Number of iterates between two reports of progress.
 const TOLD_EVERY: u64 = 4096;
@@ -152,46 +152,7 @@ fn one(
     Ok(MapOrbit { start: start.clone(), iterates: count, end: state, followed: watch.followed })
 }
 
-/// Values of an argument at which an operation exists.
-#[derive(Clone, Copy, Debug)]
-enum Domain {
-    Nonzero,
-    Positive,
-    NotNegative,
-}
-
-impl Domain {
-    /// Domain of an operation that does not exist everywhere, and the place of its argument.
-    fn of(step: Step<'_>) -> Option<(Self, usize)> {
-        match step {
-            Step::Unary(UnaryFunction::Recip, a) => Some((Domain::Nonzero, a)),
-            Step::Unary(UnaryFunction::Sqrt, a) => Some((Domain::NotNegative, a)),
-            Step::Unary(UnaryFunction::Ln, a) | Step::Binary(BinaryOperation::Pow, a, _) => {
-                Some((Domain::Positive, a))
-            }
-            Step::Power(a, exponent) => {
-                let is_whole = exponent.to_integer().is_some();
-                Some(match (is_whole, exponent.is_negative()) {
-                    (true, false) => return None,
-                    (true, true) => (Domain::Nonzero, a),
-                    (false, true) => (Domain::Positive, a),
-                    (false, false) => (Domain::NotNegative, a),
-                })
-            }
-            _ => None,
-        }
-    }
-
-    fn contains(self, argument: f64) -> bool {
-        match self {
-            Domain::Nonzero => argument != 0.0,
-            Domain::Positive => argument > 0.0,
-            Domain::NotNegative => argument >= 0.0,
-        }
-    }
-}
-
-/// What keeps a state from having an image.
+/// Reason why a state has no image.
 enum Fault {
     /// The formula with this index has no value.
     Formula(usize),

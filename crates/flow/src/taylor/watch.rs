@@ -13,8 +13,8 @@ use crate::taylor::shorten::known_part;
 use crate::taylor::stepper::Stepper;
 use liouville::graph::{Evaluator, Expr, Graph, Step, Tape};
 use liouville::mechanics::{Model, Phase};
-use liouville::number::UnaryFunction;
 use liouville::number::double_double::{DoubleDouble, DoubleDoubles};
+use liouville::number::{BinaryOperation, UnaryFunction};
 
 /// Formulas of a system as written, each with the values that have to exist.
 pub(crate) type Written = Vec<(String, Vec<Expr>)>;
@@ -35,7 +35,7 @@ const LOW: f64 = 1e-6;
 
 /// Values of an argument at which an operation exists.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Domain {
+pub(crate) enum Domain {
     Nonzero,
     Positive,
     NotNegative,
@@ -43,22 +43,31 @@ enum Domain {
 
 impl Domain {
     /// Domain of an operation that does not exist everywhere, and the place of its argument.
-    fn of(step: Step<'_>) -> Option<(Self, usize)> {
+    pub(crate) fn of(step: Step<'_>) -> Option<(Self, usize)> {
         match step {
             Step::Unary(UnaryFunction::Recip, a) => Some((Domain::Nonzero, a)),
             Step::Unary(UnaryFunction::Sqrt, a) => Some((Domain::NotNegative, a)),
-            Step::Unary(UnaryFunction::Ln, a) | Step::Binary(_, a, _) => {
+            Step::Unary(UnaryFunction::Ln, a) | Step::Binary(BinaryOperation::Pow, a, _) => {
                 Some((Domain::Positive, a))
             }
             Step::Power(a, exponent) => {
                 let is_whole = exponent.to_integer().is_some();
                 Some(match (is_whole, exponent.is_negative()) {
-                    (true, _) => (Domain::Nonzero, a),
+                    (true, false) => return None,
+                    (true, true) => (Domain::Nonzero, a),
                     (false, true) => (Domain::Positive, a),
                     (false, false) => (Domain::NotNegative, a),
                 })
             }
             _ => None,
+        }
+    }
+
+    pub(crate) fn contains(self, argument: f64) -> bool {
+        match self {
+            Domain::Nonzero => argument != 0.0,
+            Domain::Positive => argument > 0.0,
+            Domain::NotNegative => argument >= 0.0,
         }
     }
 

@@ -2,7 +2,7 @@
 
 use liouville_search::survey::LiouvilleProof;
 
-/// What Liouville's theorem says of a system, with its hypotheses.
+/// Liouville's theorem for a system, with its hypotheses.
 pub fn in_involution(proof: &LiouvilleProof) -> String {
     let bracket = match proof.bracket.as_str() {
         "momenta" => "the canonical bracket of coordinates and momenta".to_string(),

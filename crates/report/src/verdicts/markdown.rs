@@ -53,7 +53,7 @@ fn line(row: &VerdictRow<'_>) -> String {
     )
 }
 
-/// Text in one line of a table, with what would be markup escaped.
+/// Text in one line of a Markdown table, with what would be markup escaped.
 pub fn inline(text: &str) -> String {
     let mut out = String::new();
     for c in one_line(text).chars() {

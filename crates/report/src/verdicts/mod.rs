@@ -8,6 +8,8 @@ mod html;
 mod latex;
 mod markdown;
 
+pub use markdown::inline;
+
 use liouville::formula::Layout;
 use liouville::verdict::{ClaimReport, Evidence, Verdict};
 

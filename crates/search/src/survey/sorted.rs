@@ -20,9 +20,9 @@ pub struct Sorted {
     pub rates: Vec<TestedClaim>,
     /// Symmetry fields.
     pub fields: Vec<TestedClaim>,
-    /// What fails.
+    /// Refuted claims.
     pub fails: Vec<TestedClaim>,
-    /// What is not proved.
+    /// Claims without a proof.
     pub undecided: Vec<TestedClaim>,
 }
 

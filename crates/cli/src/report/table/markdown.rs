@@ -1,7 +1,8 @@
 //! Tables of the papers as Markdown.
 
-use super::{CellClaim, Filled, Regenerated, StatedCell, letter, one_line, target};
+use super::{CellClaim, Filled, Regenerated, StatedCell, letter, target};
 use crate::report::typeset::latex::formula;
+use liouville_report::inline;
 
 /// Renders a Markdown table: rows as in the paper, verdicts as links.
 pub fn render(table: &Regenerated) -> String {
@@ -41,20 +42,6 @@ fn stated(claim: &CellClaim) -> String {
     let letter = claim.letter().map_or(String::new(), |letter| format!(" ({letter})"));
     let (mark, verdict) = (claim.mark(), claim.verdict());
     format!("{mark} [{verdict}](<{}>): {text}{letter}", target(&claim.path))
-}
-
-/// Text in one line of a Markdown table, with what would be markup escaped.
-fn inline(text: &str) -> String {
-    let mut out = String::new();
-    for c in one_line(text).chars() {
-        match c {
-            '<' => out.push_str("&lt;"),
-            '>' => out.push_str("&gt;"),
-            '\\' | '`' | '*' | '_' | '[' | ']' | '|' | '!' | '$' => out.extend(['\\', c]),
-            c => out.push(c),
-        }
-    }
-    out
 }
 
 #[cfg(test)]
