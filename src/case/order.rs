@@ -11,7 +11,7 @@ use super::mistakes::bases;
 use super::section::SpannedStr;
 use super::stated::Time;
 use super::systems::Reading;
-use crate::formula::{Formula, FormulaError, canonical_name, names_in};
+use crate::formula::canonical_name;
 use crate::mechanics::TIME;
 
 /// Name of `[parameters]` or `[let]` that waits for the names it uses.
@@ -75,6 +75,18 @@ impl<'s> WaitingName<'s> {
 }
 
 impl Reading<'_, '_> {
+    /// Notes the names that are read from here on, and those of `[state]`: until then they are not taken for
+    /// numbers such as π or for components such as `v1`.
+    pub(super) fn await_names(&mut self) {
+        let state = self.root.value("state").and_then(|value| value.get_ref().as_table());
+        let keys = state.into_iter().flat_map(|table| table.keys());
+        let of_state = keys.filter_map(|key| canonical_name(key.get_ref()));
+        let items = self.items.iter().map(|item| item.name.clone());
+        for name in of_state.chain(items).collect::<Vec<_>>() {
+            self.vocabulary.await_name(&name);
+        }
+    }
+
     /// Reads all names that can be read at this stage.
     pub(super) fn settle(&mut self, stage: Stage) {
         for item in &mut self.items {
@@ -100,17 +112,7 @@ impl Reading<'_, '_> {
         let mut stack = vec![start];
         while let Some(&top) = stack.last() {
             self.items[top].state = WaitingState::Open;
-            let hiding = self.hiding(top);
-            if let Some(other) = hiding
-                && self.items[other].state == WaitingState::Pending
-            {
-                stack.push(other);
-                continue;
-            }
-            let read = match hiding {
-                Some(other) => Err(self.unread(top, other)),
-                None => self.read_item(top, stage),
-            };
+            let read = self.read_item(top, stage);
             let end = match read {
                 Ok(()) => WaitingState::Done,
                 Err(mistake) => match self.item_of(&mistake) {
@@ -148,28 +150,6 @@ impl Reading<'_, '_> {
             ItemKind::Parameter(index, value) => self.read_parameter(index, item, value),
             ItemKind::Abbreviation(text) => self.abbreviate(item, &text, stage),
         }
-    }
-
-    /// Item that is not read yet, which the text of another names, and whose name would be taken for a number
-    /// such as π or for a component such as `v1` until then.
-    fn hiding(&self, item: usize) -> Option<usize> {
-        let text = match &self.items[item].kind {
-            ItemKind::Parameter(_, value) => value.get_ref().as_str()?,
-            ItemKind::Abbreviation(text) => text.value.as_str(),
-        };
-        let is_open =
-            |other: &usize| *other != item && self.items[*other].state != WaitingState::Done;
-        let has_other_meaning = |name: &str| Formula::parse(name, &self.vocabulary).is_ok();
-        names_in(text)
-            .iter()
-            .filter_map(|name| self.items.iter().position(|other| other.name == *name))
-            .find(|other| is_open(other) && has_other_meaning(&self.items[*other].name))
-    }
-
-    /// Mistake of a text that names an item which cannot be read before it.
-    fn unread(&self, item: usize, other: usize) -> Mistake {
-        let error = FormulaError::unknown(&self.items[other].name);
-        Mistake::at(self.items[item].key.clone(), Problem::Formula(error))
     }
 
     /// Item whose name is missing where a formula cannot be read, if it is pending.

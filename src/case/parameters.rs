@@ -46,6 +46,7 @@ impl<'r, 's> Reading<'r, 's> {
             self.items.push(WaitingName::new(name, key.span(), ItemKind::Parameter(index, value)));
         }
         self.list_abbreviations();
+        self.await_names();
         self.settle(Stage::Parameters);
     }
 

@@ -35,6 +35,21 @@ impl Condition {
     }
 }
 
+impl Need {
+    /// Returns the values on which it depends whether the property holds.
+    pub fn values(&self) -> Vec<Expr> {
+        match self {
+            Self::Rank { rows, .. } => rows.concat(),
+            Self::NotZero { value } | Self::Positive { value } => vec![*value],
+            Self::Nonzero { values } | Self::Continuous { values } => values.clone(),
+            Self::Zeros { function } => vec![*function],
+            Self::OneToOne { moved } => vec![*moved],
+            Self::Finite { value, field } => [&[*value], &field[..]].concat(),
+            Self::ValueOnZeros { function, factor, inverse } => vec![*function, *factor, *inverse],
+        }
+    }
+}
+
 /// A property that can be required.
 #[derive(Clone, Debug)]
 pub enum Need {

@@ -50,7 +50,7 @@ macro_rules! decided_by_criterion {
             volume::limit_of_proof(model)
         }
 
-        fn remark(&self, model: &Model) -> Option<String> {
+        fn remark(&self, model: &Model, _: &[bool]) -> Option<String> {
             let remarks: Vec<String> =
                 [kinks::remark(model), volume::remark(model)].into_iter().flatten().collect();
             (!remarks.is_empty()).then(|| remarks.join("; "))

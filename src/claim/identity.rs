@@ -180,7 +180,7 @@ impl Statement for Relation {
         all
     }
 
-    fn remark(&self, model: &Model) -> Option<String> {
+    fn remark(&self, model: &Model, _: &[bool]) -> Option<String> {
         let moves = |symbol| model.vocabulary.entry(symbol).reach > Dependence::Parameters;
         let all = model.vocabulary.with_abbreviations(&self.cofactor, &model.abbreviations);
         let below = all.into_iter().flat_map(Formula::denominators);

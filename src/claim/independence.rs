@@ -37,7 +37,10 @@ impl Statement for Independent {
         let formulas = from.list(Self::NAME)?.ok_or_else(|| from.missing(Self::NAME))?;
         let most = MOST_FUNCTIONS.saturating_sub(from.model().level.len());
         if formulas.is_empty() || formulas.len() > most {
-            let message = format!("{} functions cannot be compared", formulas.len());
+            let message = match formulas.len() {
+                0 => "no functions are listed".to_string(),
+                count => format!("{count} functions are too many"),
+            };
             let remedy = format!("list between 1 and {most} functions");
             return Err(from.complaint(Self::NAME, message, &remedy));
         }
@@ -59,7 +62,7 @@ impl Statement for Independent {
 
     /// Remarks on the theorem of Euler and Jacobi: with an invariant density, n - 2 independent
     /// integrals on an n-dimensional level integrate the system by quadratures.
-    fn remark(&self, model: &Model) -> Option<String> {
+    fn remark(&self, model: &Model, _: &[bool]) -> Option<String> {
         if model.system.is_map() {
             return None;
         }

@@ -9,7 +9,9 @@
 //! docs/soundness.md, "Liouville's theorem".
 
 use super::jacobi_identity::jacobi_defects;
-use super::of_bracket::{CHOICE, bracket_of, tensor_slopes, they_vary, turned};
+use super::of_bracket::{
+    CHOICE, bracket_of, images_as_written, tensor_slopes, they_vary, turned, written,
+};
 use super::statement::Objection;
 use super::{Condition, Jets, Need, Reader, Statement, clock};
 use crate::formula::Formula;
@@ -23,6 +25,8 @@ use crate::scalar::Scalar;
 const THEOREM: &str = "theorem";
 /// Its only value.
 const LIOUVILLE: &str = "Liouville";
+/// Key of a place other than the level.
+const PLACE: &str = "where";
 /// Largest number of components of the functions.
 const MOST_FUNCTIONS: usize = 24;
 
@@ -46,7 +50,11 @@ impl Statement for Involution {
         let functions = from.list(Self::NAME)?.ok_or_else(|| from.missing(Self::NAME))?;
         let count = components(&functions);
         if !(2..=MOST_FUNCTIONS).contains(&count) && from.text(THEOREM)?.is_none() || count == 0 {
-            let message = format!("{count} functions cannot be compared");
+            let message = match count {
+                0 => "no functions are listed".to_string(),
+                1 => "one function is in involution with itself".to_string(),
+                _ => format!("{count} functions are too many"),
+            };
             let remedy = format!("list between 2 and {MOST_FUNCTIONS} functions");
             return Err(from.complaint(Self::NAME, message, &remedy));
         }
@@ -59,7 +67,8 @@ impl Statement for Involution {
                 return Err(from.complaint(THEOREM, message, "write theorem = \"Liouville\""));
             }
         };
-        if is_complete {
+        // At another place there are more dimensions; without enough functions the ranks fail.
+        if is_complete && from.text(PLACE)?.is_none() {
             check_number(from, count)?;
         }
         Ok(Self { functions, bracket, is_own, is_complete })
@@ -72,6 +81,18 @@ impl Statement for Involution {
 
     fn formulas(&self) -> Vec<&Formula> {
         self.functions.iter().collect()
+    }
+
+    fn written_elsewhere(&self, jet: &DualPoint<'_, Expr>) -> Vec<Expr> {
+        let (MotionBracket::OfVariables(index), Some(variables)) =
+            (self.bracket, jet.phase.model().variables.as_deref())
+        else {
+            return Vec::new();
+        };
+        let there = &jet.in_variables(variables).phase;
+        let mut values = images_as_written(variables, &jet.phase);
+        values.extend(written(variables, &[index], std::iter::empty(), there));
+        values
     }
 
     fn residual<T: Scalar>(&self, jet: &DualPoint<'_, T>, kept: &[bool]) -> Vec<T> {
@@ -130,12 +151,14 @@ impl Statement for Involution {
         })
     }
 
-    fn remark(&self, model: &Model) -> Option<String> {
-        let count = components(&self.functions) + model.level.len();
+    fn remark(&self, model: &Model, kept: &[bool]) -> Option<String> {
+        let imposed = kept.iter().filter(|kept| **kept).count();
+        let count = components(&self.functions) + imposed;
         let tori = model.dimension().checked_sub(count).filter(|_| self.is_complete)?;
         Some(format!(
-            "Liouville's theorem: a compact connected joint level on which the functions are independent, and \
-             their fields span it, is a torus of dimension {tori}, and the motion on it is quasi-periodic"
+            "Liouville's theorem: a compact connected joint level on which the functions are independent, \
+             their fields span it, and these and the equations of motion are smooth, is a torus of \
+             dimension {tori}, and the motion on it is quasi-periodic"
         ))
     }
 }

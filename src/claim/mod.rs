@@ -351,9 +351,9 @@ impl ClaimKind {
         of_each!(self, statement => statement.limit_of_proof(model))
     }
 
-    /// Returns a remark for a claim that holds.
-    pub fn remark(&self, model: &Model) -> Option<String> {
-        of_each!(self, statement => statement.remark(model))
+    /// Returns a remark for a claim that holds; `kept` are the level equations imposed.
+    pub fn remark(&self, model: &Model, kept: &[bool]) -> Option<String> {
+        of_each!(self, statement => statement.remark(model, kept))
     }
 
     /// Describes parts of the statement that its text leaves out, such as a cofactor.

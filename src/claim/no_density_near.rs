@@ -96,7 +96,7 @@ impl Statement for NoDensityNear {
         vec![Condition { need, otherwise: otherwise.to_string(), is_essential: true }]
     }
 
-    fn remark(&self, _: &Model) -> Option<String> {
+    fn remark(&self, _: &Model, _: &[bool]) -> Option<String> {
         Some("this excludes densities that are continuous, and positive at the point".to_string())
     }
 }

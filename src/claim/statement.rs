@@ -186,8 +186,8 @@ pub trait Statement: Clone {
         None
     }
 
-    /// Returns a remark for a claim that holds.
-    fn remark(&self, _: &Model) -> Option<String> {
+    /// Returns a remark for a claim that holds; `kept` are the level equations imposed.
+    fn remark(&self, _: &Model, _: &[bool]) -> Option<String> {
         None
     }
 

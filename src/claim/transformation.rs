@@ -105,7 +105,7 @@ impl Statement for Symmetry {
         self.map.formulas().into_iter().chain(&self.time).collect()
     }
 
-    fn remark(&self, model: &Model) -> Option<String> {
+    fn remark(&self, model: &Model, _: &[bool]) -> Option<String> {
         self.map.kinks(model)
     }
 

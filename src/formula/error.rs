@@ -36,11 +36,6 @@ impl FormulaError {
         }))
     }
 
-    /// The error of a name without a meaning.
-    pub(crate) fn unknown(name: &str) -> Self {
-        Self::new(0..0, format!("unknown name `{name}`")).with_unknown(name)
-    }
-
     pub(crate) fn with_help(mut self, help: impl Into<String>) -> Self {
         self.0.help = Some(help.into());
         self

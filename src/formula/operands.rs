@@ -52,6 +52,9 @@ impl Parser<'_> {
             return Ok(self.builder.push(number, Type::Scalar, span));
         }
         let meaning = resolve(name, self.scope);
+        if meaning.is_none() && canonical_name(name).is_some_and(|name| self.scope.awaits(&name)) {
+            return Err(self.unknown_name(name, span));
+        }
         if meaning.is_none() && functions::is_function(name) {
             return self.call(name, span);
         }

@@ -17,6 +17,11 @@ pub trait Scope {
     /// All known names, for suggestions.
     fn names(&self) -> Vec<String>;
 
+    /// Whether a name, in canonical form, will be declared later: until then it has no other meaning.
+    fn awaits(&self, _name: &str) -> bool {
+        false
+    }
+
     /// Whole number that a name stands for, if it is known when formulas are read: only such names
     /// may stand in indices and in the bounds of sums.
     fn whole_number(&self, _name: &str) -> Option<i64> {
@@ -68,6 +73,9 @@ pub(super) fn resolve(written: &str, scope: &dyn Scope) -> Option<NameMeaning> {
     let name = canonical_name(written)?;
     if let Some((symbol, ty)) = whole(&name) {
         return Some(NameMeaning::Whole(symbol, ty));
+    }
+    if scope.awaits(&name) {
+        return None;
     }
     match name.as_str() {
         "E" => return Some(NameMeaning::Identity),

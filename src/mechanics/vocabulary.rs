@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::quantity::Quantity;
 use crate::formula::{Formula, Scope, Symbol, SymbolOrigin, Type};
@@ -53,9 +53,16 @@ pub struct VocabularyEntry {
 pub struct Vocabulary {
     entries: Vec<VocabularyEntry>,
     by_name: FxHashMap<String, u32>,
+    awaited: FxHashSet<String>,
 }
 
 impl Vocabulary {
+    /// Notes a name that is declared later: formulas read before it cannot use its other meanings, such as
+    /// the number e or the component v1.
+    pub fn await_name(&mut self, name: &str) {
+        self.awaited.insert(name.to_string());
+    }
+
     /// Adds a name; a later entry of the same name hides the earlier one.
     pub fn add(&mut self, name: &str, meaning: Meaning, kind: Type, reach: Dependence) {
         self.by_name.insert(name.to_string(), self.entries.len() as u32);
@@ -211,6 +218,10 @@ impl Scope for Vocabulary {
 
     fn names(&self) -> Vec<String> {
         self.by_name.keys().cloned().collect()
+    }
+
+    fn awaits(&self, name: &str) -> bool {
+        self.awaited.contains(name)
     }
 
     fn whole_number(&self, name: &str) -> Option<i64> {

@@ -11,8 +11,8 @@ use crate::claim::ClaimKind;
 const ON_A_PART: &str = "shown on a part of the states only: where a modulus, or a root that depends on \
                          others, has another sign, or on another branch of the level, it may fail";
 
-/// Reason why a value that does not vanish for the constants drawn refutes nothing.
-const OPEN_CONSTANT: &str = "it depends on the value of an ∫, whose constant is open, and fails for some constants: write the \
+/// Reason why a value that does not vanish for the constants drawn decides nothing.
+pub(super) const OPEN_CONSTANT: &str = "it depends on the value of an ∫, whose constant is open, and fails for some constants: write the \
                              antiderivative out";
 
 /// Makes the report on a claim, with its verdict compared with the expectation. With an open constant its
@@ -61,7 +61,7 @@ pub fn report(
     }
     let holds = matches!(verdict, Verdict::Proved | Verdict::Confirmed);
     if holds {
-        if let Some(remark) = claim.kind.remark(&case.model) {
+        if let Some(remark) = claim.kind.remark(&case.model, &claim.place.kept) {
             evidence.add_remark(remark);
         }
         if claim.kind.is_negated() && status.is_on_a_part {

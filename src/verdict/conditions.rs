@@ -1,8 +1,9 @@
 //! Conditions that claims presuppose.
 
 use super::cell_rank::{CellRank, RankQuestion};
-use super::claim_state::{are_zero, undecide};
+use super::claim_state::{ClaimState, are_zero, undecide};
 use super::cofactors::Cofactor;
+use super::conclude::OPEN_CONSTANT;
 use super::evidence::{Flaw, Verdict};
 use super::field::{Answer, PrimeFieldStates, Query};
 use super::judging::Judging;
@@ -36,6 +37,11 @@ impl Judging<'_> {
     ) -> Result<(), Fault> {
         for (item, status) in holding.iter_mut() {
             for condition in &item.conditions {
+                let is_open = |value: &Expr| self.has_open_constant(*value);
+                if condition.is_essential && condition.need.values().iter().any(is_open) {
+                    undecide(status, OPEN_CONSTANT.to_string());
+                    continue;
+                }
                 let asks_one_to_one = matches!(condition.need, Need::OneToOne { .. });
                 if asks_one_to_one && self.is_one_to_one(sampler, SecondState::InRanges)? {
                     continue;
@@ -62,6 +68,25 @@ impl Judging<'_> {
                 } else if !self.holds_of_all_values(item)? {
                     undecide(status, failure);
                 }
+            }
+        }
+        Ok(())
+    }
+
+    /// Leaves claims undecided whose residual vanishes on states of which none is known, where an essential
+    /// condition is not known to hold there. A part of the level without such states says nothing otherwise.
+    pub(super) fn settle_conditions_unseen(
+        &self,
+        sampler: &Sampler,
+        (item, status): (&RecordedClaim<'_>, &mut ClaimState),
+    ) -> Result<(), Fault> {
+        for condition in item.conditions.iter().filter(|condition| condition.is_essential) {
+            if let Some(failure) = self.failure(sampler, item, condition)?
+                && !self.holds_of_all_values(item)?
+            {
+                undecide(status, failure);
+                status.is_unseen = false;
+                break;
             }
         }
         Ok(())
@@ -143,8 +168,8 @@ impl Judging<'_> {
                             self.rank_on_cells(sampler, (rows, *rank), &item.requirement, question)
                         };
                         match of(RankQuestion::Drops)? {
-                            CellRank::Unknown if condition.is_essential => {
-                                if self.holds_of_all_values(item)? {
+                            CellRank::Unknown => {
+                                if condition.is_essential && self.holds_of_all_values(item)? {
                                     return Ok(None);
                                 }
                                 of(RankQuestion::Known)?
@@ -157,9 +182,7 @@ impl Judging<'_> {
                 Ok(match known {
                     CellRank::Full => None,
                     CellRank::Drops => Some(format!("on a part of the states {otherwise}")),
-                    CellRank::Unknown => condition
-                        .is_essential
-                        .then(|| format!("it is not known whether {otherwise}")),
+                    CellRank::Unknown => Some(format!("it is not known whether {otherwise}")),
                 })
             }
             Need::NotZero { value } => {

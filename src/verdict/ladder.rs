@@ -72,6 +72,7 @@ impl Judging<'_> {
             open.into_iter().partition(|(_, status)| status.holds());
         for (item, status) in others.into_iter().filter(|(_, status)| status.is_unseen) {
             self.remark_missing(sampler, (item, status), &[]);
+            self.settle_conditions_unseen(sampler, (item, status))?;
         }
         self.settle_novelty(sampler, &mut holding)?;
         self.settle_conditions(sampler, &mut holding)?;

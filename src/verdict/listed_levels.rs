@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 
-use super::evidence::{ClaimReport, Evidence, Verdict};
+use super::evidence::{ClaimReport, DensitySign, Evidence, Verdict};
 use super::field::TOO_MANY_COMBINATIONS;
 use super::judge::{JudgeError, Options, judge};
 use super::listed_powers::SplitDraws;
@@ -60,6 +60,7 @@ pub(super) fn judge_each_listed(
                 continue;
             }
         };
+        let mut judged_values: Vec<(String, Evidence)> = Vec::new();
         for (index, choice) in choices.into_iter().enumerate() {
             // Nothing is said for these values if nothing is for any values of the other lists.
             let void = voids.iter().filter(|void| agrees(void, &choice)).count();
@@ -71,13 +72,15 @@ pub(super) fn judge_each_listed(
             let named = named(case, &values);
             match judged(case, options, claim, &values) {
                 // What is refuted for positive bases may hold for all.
-                Ok(one) if is_held(one.verdict) && !holds && index == 0 => *report = one,
+                Ok(one) if is_held(one.verdict) && !holds && index == 0 => {
+                    judged_values.push((named, one.evidence.clone()));
+                    *report = one;
+                }
                 Ok(one) if one.verdict == Verdict::Proved || one.verdict == report.verdict => {
-                    if !split.is_empty() {
-                        include(&mut report.evidence, one.evidence, &named);
-                    }
+                    judged_values.push((named, one.evidence));
                 }
                 Ok(one) => {
+                    judged_values.clear();
                     *report = one;
                     let reason = report.evidence.reason.take().unwrap_or_default();
                     let separator = if reason.is_empty() { "" } else { ": " };
@@ -91,10 +94,14 @@ pub(super) fn judge_each_listed(
                     break;
                 }
                 Err(error) => {
+                    judged_values.clear();
                     leave_open(report, format!("for {named}: {error}"));
                     break;
                 }
             }
+        }
+        if !split.is_empty() {
+            restrict(&mut report.evidence, judged_values);
         }
     }
     Ok(())
@@ -104,21 +111,37 @@ fn is_held(verdict: Verdict) -> bool {
     matches!(verdict, Verdict::Proved | Verdict::Confirmed)
 }
 
-/// Adds what restricts a claim for some listed values to what restricts it for all.
-fn include(evidence: &mut Evidence, of_values: Evidence, named: &str) {
-    evidence.holds.retain(|place| of_values.holds.contains(place));
-    of_values.flaws.iter().for_each(|flaw| evidence.add_flaw(*flaw));
-    if let Some(remark) = of_values.remark
-        && !evidence.remark.as_ref().is_some_and(|own| own.contains(&remark))
-    {
-        evidence.add_remark(format!("for {named}: {remark}"));
+/// Replaces what restricts a claim for all listed values, read as ranges, by what does for each of them.
+fn restrict(evidence: &mut Evidence, of_values: Vec<(String, Evidence)>) {
+    let Some((_, first)) = of_values.first() else { return };
+    evidence.flaws.clear();
+    evidence.remark = None;
+    (evidence.sign, evidence.sign_is_proved) = (first.sign, first.sign_is_proved);
+    let is_common = of_values.iter().all(|(_, own)| own.remark == first.remark);
+    if is_common {
+        evidence.remark.clone_from(&first.remark);
     }
-    if of_values.sign != evidence.sign {
-        evidence.sign = of_values.sign;
+    for (named, own) in of_values {
+        evidence.holds.retain(|place| own.holds.contains(place));
+        own.flaws.iter().for_each(|flaw| evidence.add_flaw(*flaw));
+        if let Some(remark) = own.remark.filter(|_| !is_common) {
+            evidence.add_remark(format!("for {named}: {remark}"));
+        }
+        evidence.sign = sign_of_both(evidence.sign, own.sign);
+        evidence.sign_is_proved &= own.sign_is_proved && evidence.sign.is_some();
+        evidence.sign_may_vanish |= own.sign_may_vanish;
+        evidence.sign_is_partial |= own.sign_is_partial;
     }
-    evidence.sign_is_proved &= of_values.sign_is_proved;
-    evidence.sign_may_vanish |= of_values.sign_may_vanish;
-    evidence.sign_is_partial |= of_values.sign_is_partial;
+}
+
+/// Sign of a density for two values of a parameter.
+fn sign_of_both(one: Option<DensitySign>, other: Option<DensitySign>) -> Option<DensitySign> {
+    let (one, other) = (one?, other?);
+    Some(match one == other {
+        true => one,
+        false if [one, other].contains(&DensitySign::Changes) => DensitySign::Changes,
+        false => DensitySign::ChangesWithParameters,
+    })
 }
 
 /// Judges a claim in the case with these values.

@@ -1,5 +1,7 @@
 //! Warnings for states that are physically impossible but mathematically meaningful.
 
+use std::ops::Range;
+
 use nalgebra::{Matrix3, Vector3};
 use num_traits::One;
 
@@ -10,6 +12,7 @@ use crate::mechanics::{Phase, System};
 use crate::number::ball::Balls;
 
 /// Returns the quantities to be checked: m, I by rows, R₁ + R₂, R₁R₂, 1 + k(R₁+R₂) + k²R₁R₂, R, c.
+/// A system may lack those at the end: no surface that rolls, no mass centre in a ball.
 pub fn outputs(phase: &Phase<'_, Expr>) -> Vec<Expr> {
     let at = &phase.configuration;
     let named = |name: &str| at.named(name);
@@ -36,7 +39,7 @@ pub fn outputs(phase: &Phase<'_, Expr>) -> Vec<Expr> {
 /// meant.
 pub fn is_asymmetric(values: &[&Balls<TAPE_LANES>]) -> bool {
     let pairs = [(2, 4), (3, 7), (6, 8)];
-    values.len() > 9
+    values.len() >= INERTIA.end
         && pairs.iter().any(|(above, below)| {
             let (above, below) = (values[*above], values[*below]);
             (0..TAPE_LANES).any(|lane| {
@@ -52,7 +55,7 @@ pub fn warnings(values: &[&Balls<TAPE_LANES>]) -> Vec<String> {
     let mut defined = 0;
     for lane in 0..TAPE_LANES {
         let defined_here = values.iter().all(|block| block.is_defined(lane));
-        if values.len() < 13 || !defined_here {
+        if values.len() < INERTIA.end || !defined_here {
             continue;
         }
         defined += 1;
@@ -71,10 +74,13 @@ pub fn warnings(values: &[&Balls<TAPE_LANES>]) -> Vec<String> {
         .collect()
 }
 
-/// Indices among the outputs.
+/// Places among the outputs.
+const MASS: usize = 0;
+const INERTIA: Range<usize> = 1..10;
 const SUM_OF_RADII: usize = 10;
 const PRODUCT_OF_RADII: usize = 11;
 const DETERMINANT: usize = 12;
+const RADIUS_AND_OFFSET: Range<usize> = 13..17;
 
 const KINDS: [&str; 6] = [
     "the mass is not positive",
@@ -87,14 +93,16 @@ const KINDS: [&str; 6] = [
 
 fn impossibilities(values: &[&Balls<TAPE_LANES>], lane: usize) -> [bool; KINDS.len()] {
     let state: Vec<f64> = values.iter().map(|block| block.mid[lane]).collect();
-    let below_zero = |index: usize| state[index] < 0.0 && values[index].excludes_zero(lane);
-    let inertia = Inertia::of(&Matrix3::from_row_slice(&state[1..10]));
-    let outside = match state.get(13..17) {
+    let below_zero = |place: usize| {
+        values.get(place).is_some_and(|block| block.mid[lane] < 0.0 && block.excludes_zero(lane))
+    };
+    let inertia = Inertia::of(&Matrix3::from_row_slice(&state[INERTIA]));
+    let outside = match state.get(RADIUS_AND_OFFSET) {
         Some([radius, x, y, z]) => Vector3::new(*x, *y, *z).norm() > radius.abs(),
         _ => false,
     };
     [
-        state[0] <= 0.0,
+        state[MASS] <= 0.0,
         inertia == Inertia::Indefinite,
         inertia == Inertia::NoBody,
         below_zero(SUM_OF_RADII) || below_zero(PRODUCT_OF_RADII),

@@ -1,7 +1,8 @@
 //! Motions whose section crossings stay in a part of the section, all or most of them.
 
-use super::{Beginning, Motional, Stated, count, number, stated};
+use super::{Beginning, Motional, Stated, count, stated, without_error};
 use crate::claim::Reader;
+use crate::number::rational::Rational;
 
 /// A coordinate of the section.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,7 +24,7 @@ pub struct Confined {
     /// Lower and upper bound.
     pub between: [Stated; 2],
     /// Smallest share of the crossings that must lie between the bounds.
-    pub share: f64,
+    pub share: Rational,
     /// Start of the motion.
     pub beginning: Beginning,
     /// Number of crossings to test.
@@ -48,14 +49,24 @@ impl Motional for Confined {
             }
         };
         let between = [stated(from, Self::NAME, low)?, stated(from, Self::NAME, high)?];
-        let beginning = Beginning::on_section(from)?;
-        let crossings = count(from, "crossings")?.ok_or_else(|| from.missing("crossings"))?;
-        let skip = count(from, "skip")?.unwrap_or(0);
-        let share = number(from, "share")?.map_or(1.0, |share| share.value);
-        if !(share > 0.0 && share <= 1.0) {
-            let message = format!("{share} is not a share");
-            return Err(from.complaint("share", message, "write a number above 0, at most 1"));
+        for bound in &between {
+            without_error(from, Self::NAME, bound)?;
         }
+        let beginning = Beginning::on_section(from)?;
+        let crossings = count(from, "crossings", 1)?.ok_or_else(|| from.missing("crossings"))?;
+        let skip = count(from, "skip", 0)?.unwrap_or(0);
+        let share = match from.text("share")? {
+            None => Rational::from(1),
+            Some(text) => {
+                let share = text.parse().ok();
+                let [zero, one] = [0, 1].map(Rational::from);
+                let share = share.filter(|share: &Rational| *share > zero && *share <= one);
+                share.ok_or_else(|| {
+                    let message = format!("`{text}` is not a share");
+                    from.complaint("share", message, "write a number above 0, at most 1")
+                })?
+            }
+        };
         Ok(Self { text, axis, between, share, beginning, crossings, skip })
     }
 
@@ -64,7 +75,7 @@ impl Motional for Confined {
     }
 
     fn text(&self) -> String {
-        let most = match self.share < 1.0 {
+        let most = match self.share < Rational::from(1) {
             true => format!(" for {} of the crossings", self.share),
             false => String::new(),
         };

@@ -21,8 +21,8 @@ impl Motional for LimitCycle {
     const COMPANIONS: &'static [&'static str] = &["start", "crossings", "point"];
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
-        let period = count(from, Self::NAME)?.ok_or_else(|| from.missing(Self::NAME))?;
-        let crossings = count(from, "crossings")?.ok_or_else(|| from.missing("crossings"))?;
+        let period = count(from, Self::NAME, 1)?.ok_or_else(|| from.missing(Self::NAME))?;
+        let crossings = count(from, "crossings", 1)?.ok_or_else(|| from.missing("crossings"))?;
         if crossings < 8 * period {
             let message = format!("{crossings} crossings do not show a cycle of period {period}");
             return Err(from.complaint("crossings", message, "follow the motion for longer"));

@@ -33,7 +33,7 @@ impl Motional for LimitOfMotion {
         Ok(Self {
             function: from.required(Self::NAME, None)?,
             component: from.model().free_component(parameter),
-            order: count(from, "order")?.unwrap_or(1),
+            order: count(from, "order", 1)?.unwrap_or(1),
             constant: number(from, "constant")?,
             beginning: Beginning::read(from)?,
             time: time(from)?,

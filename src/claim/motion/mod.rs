@@ -170,16 +170,20 @@ fn point<R: Reader>(from: &R, key: &'static str) -> Result<Option<[Stated; 2]>, 
 /// Largest number of crossings, and largest length of a cycle.
 const MOST_CROSSINGS: usize = 1_000_000_000;
 
-/// Reads a positive integer.
-fn count<R: Reader>(from: &R, key: &'static str) -> Result<Option<usize>, R::Error> {
+/// Reads an integer, not less than `least`.
+fn count<R: Reader>(from: &R, key: &'static str, least: usize) -> Result<Option<usize>, R::Error> {
     let Some(text) = from.text(key)? else { return Ok(None) };
     match text.parse() {
-        Ok(count) if (1..=MOST_CROSSINGS).contains(&count) => Ok(Some(count)),
-        Ok(1..) => {
+        Ok(count) if (least..=MOST_CROSSINGS).contains(&count) => Ok(Some(count)),
+        Ok(count) if count > MOST_CROSSINGS => {
             let message = format!("`{text}` is too large");
             Err(from.complaint(key, message, &format!("write a number up to {MOST_CROSSINGS}")))
         }
-        _ => Err(from.complaint(key, format!("`{text}` is not a count"), "write 1, 2, 3, …")),
+        _ => {
+            let [first, second, third] = [0, 1, 2].map(|more| least + more);
+            let remedy = format!("write {first}, {second}, {third}, …");
+            Err(from.complaint(key, format!("`{text}` is not a count"), &remedy))
+        }
     }
 }
 

@@ -59,7 +59,7 @@ impl Motional for PeriodicPoint {
         let found = Self {
             beginning: Beginning::Section(at.clone()),
             at,
-            period: count(from, "period")?.unwrap_or(1),
+            period: count(from, "period", 1)?.unwrap_or(1),
             time: number(from, "time")?,
             stability: word(from, "stability", &Stability::ALL)?,
             product: number(from, "product")?,

@@ -31,39 +31,43 @@ impl Stated {
             }
             None => (text.as_str(), 0.0),
         };
-        let value = match number.split_once('π') {
+        let (value, unit) = match number.split_once('π') {
             Some((factor, divisor)) => multiple_of_pi(factor.trim(), divisor.trim())?,
-            None => number.parse::<Rational>().ok()?.to_f64().0,
+            None => (number.parse::<Rational>().ok()?.to_f64().0, unit(number)?),
         };
-        Some(Self { value, unit: unit(number), error, text })
+        Some(Self { value, unit, error, text })
     }
 }
 
-/// Computes f π/d.
-fn multiple_of_pi(factor: &str, divisor: &str) -> Option<f64> {
-    let factor = match factor.trim_end_matches('*') {
-        "" => 1.0,
-        "-" => -1.0,
-        factor => factor.parse().ok()?,
+/// Computes f π/d, and the unit in the last place of a decimal f times π/d.
+fn multiple_of_pi(factor: &str, divisor: &str) -> Option<(f64, f64)> {
+    let factor = factor.strip_suffix('*').map_or(factor, str::trim_end);
+    let factor = match factor {
+        "" => "1",
+        "-" => "-1",
+        factor => factor,
     };
-    let divisor: f64 = match divisor.strip_prefix('/') {
-        None if divisor.is_empty() => 1.0,
+    let share = match divisor.strip_prefix('/') {
+        None if divisor.is_empty() => Rational::from(1),
         None => return None,
-        Some(divisor) => divisor.trim().parse().ok()?,
+        Some(divisor) => divisor.parse::<Rational>().ok()?.recip()?,
     };
-    Some(factor * PI / divisor)
+    let value = &factor.parse::<Rational>().ok()? * &share;
+    Some((value.to_f64().0 * PI, unit(factor)? * share.to_f64().0.abs() * PI))
 }
 
-/// Returns one unit in the last place of a decimal.
-fn unit(number: &str) -> f64 {
+/// Returns one unit in the last place of a decimal, and 0 for an integer or a fraction.
+fn unit(number: &str) -> Option<f64> {
+    if number.contains('/') {
+        return Some(0.0);
+    }
     let (digits, exponent) = match number.split_once(['e', 'E']) {
-        Some((digits, exponent)) => (digits, exponent.parse().unwrap_or(0)),
+        Some((digits, exponent)) => (digits, exponent.trim().parse().ok()?),
         None => (number, 0),
     };
-    match digits.split_once('.') {
-        Some((_, decimals)) => libm::pow(10.0, f64::from(exponent - decimals.len() as i32)),
-        None => 0.0,
-    }
+    let Some((_, decimals)) = digits.split_once('.') else { return Some(0.0) };
+    let places = i32::try_from(decimals.bytes().filter(u8::is_ascii_digit).count()).ok()?;
+    Some(libm::pow(10.0, f64::from(i32::checked_sub(exponent, places)?)))
 }
 
 #[cfg(test)]
@@ -80,7 +84,13 @@ mod tests {
         assert_eq!(read("0.50"), Some((0.5, 0.01, 0.0)), "two decimals");
         assert_eq!(read("0.035 ± 0.003"), Some((0.035, 0.001, 0.003)), "with its error");
         assert_eq!(read("2.5e-3"), Some((0.0025, 1e-4, 0.0)), "an exponent moves the place");
-        for wrong in ["", "x", "1 ± y", "1 ± -2", "ππ", "π2"] {
+        assert_eq!(read("1_000.12_5"), Some((1000.125, 1e-3, 0.0)), "digits in groups");
+        assert_eq!(read("1.50/3"), Some((0.5, 0.0, 0.0)), "a fraction is exact");
+        assert_eq!(read("2 * pi"), Some((2.0 * PI, 0.0, 0.0)), "exact");
+        assert_eq!(read("1.5*pi"), Some((1.5 * PI, 0.1 * PI, 0.0)), "one decimal, times π");
+        assert_eq!(read("-0.5π/2"), Some((-0.25 * PI, 0.05 * PI, 0.0)), "one decimal, times π/2");
+        let wrong = ["", "x", "1 ± y", "1 ± -2", "ππ", "π2", "π/0", "inf*pi", "nan*pi", "2**pi"];
+        for wrong in wrong {
             assert_eq!(read(wrong), None, "{wrong}");
         }
     }

@@ -61,6 +61,13 @@ impl ComputedClosedOrbit {
         Some(MeasuredNumber::twice(of(&self.float)?, of(&self.pair)?))
     }
 
+    /// Whether the multipliers are of the same kind, real or complex, in both precisions.
+    pub fn has_decided_multipliers(&self) -> bool {
+        let is_real =
+            |point: &ComputedPeriodicPoint| matches!(point.multipliers(), Multipliers::Real(..));
+        is_real(&self.float) == is_real(&self.pair)
+    }
+
     /// Whether the distance that Newton's method leaves is so small that there seems to be a point, by
     /// the least singular value of its equations.
     pub fn is_supported(&self) -> bool {

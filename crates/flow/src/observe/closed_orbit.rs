@@ -168,7 +168,7 @@ fn name(stability: Stability) -> &'static str {
 }
 
 /// Compares an enclosed period with the digits stated.
-fn compare_period(stated: &Stated, period: Enclosure, judgement: &mut MotionJudgement) {
+pub(super) fn compare_period(stated: &Stated, period: Enclosure, judgement: &mut MotionJudgement) {
     let rounding = 4.0 * f64::EPSILON * (period.mid.abs() + stated.value.abs());
     let gap = (period.mid - stated.value).abs();
     let is_inside = gap + period.rad + rounding <= stated.unit;

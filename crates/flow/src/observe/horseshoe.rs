@@ -1,6 +1,6 @@
 //! Horseshoes, proved by covering relations, and the integrals that they exclude.
 
-use super::closed_orbit::NEAR;
+use super::closed_orbit::{NEAR, compare_period};
 use super::ground::Ground;
 use super::judgement::MotionJudgement;
 use super::scene::FollowedCase;
@@ -55,6 +55,7 @@ fn weigh(claim: &Claim, found: &ProvedHorseshoe, judgement: &mut MotionJudgement
         MeasuredNumber { value: short.mid, error: short.rad },
         Some(&claim.period),
     );
+    compare_period(&claim.period, short, judgement);
     judgement.theorem = Some(theorem(found, claim.excludes_integral));
 }
 

@@ -78,7 +78,12 @@ fn compare_multipliers(
         match (found, stated) {
             (Some(found), Some(stated)) => judgement.compare(quantity, found, stated),
             (Some(found), None) => judgement.show(quantity, found),
-            (None, Some(_)) => judgement.refute(format!("there is no {quantity}")),
+            (None, Some(_)) if orbit.has_decided_multipliers() => {
+                judgement.refute(format!("there is no {quantity}"));
+            }
+            (None, Some(_)) => judgement.leave_open(format!(
+                "the {quantity} is not decided by these numbers: the multipliers nearly coincide"
+            )),
             (None, None) => {}
         }
     }

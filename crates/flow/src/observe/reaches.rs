@@ -6,6 +6,7 @@ use crate::motion::recorded::{filled, point};
 use crate::{Enclosure, FlowError, MeasuredNumber, Obstacle, follow};
 use liouville::claim::Components;
 use liouville::claim::motion::{Beginning, Reaches};
+use liouville::formula::Formula;
 use liouville::graph::{Evaluator, Expr, Tape, literally, record};
 use liouville::mechanics::{Model, Phase};
 use liouville::number::ball::{Ball, Balls};
@@ -109,15 +110,22 @@ fn weigh(
     state: &[Enclosure],
     judgement: &mut MotionJudgement,
 ) -> Result<(), FlowError> {
-    let bounds = [(&claim.above, "above"), (&claim.below, "below")];
+    let formulas: Vec<&Formula> =
+        [Some(&claim.function), claim.above.as_ref(), claim.below.as_ref()]
+            .into_iter()
+            .flatten()
+            .collect();
     let (graph, outputs) = record(model.dimension(), |inputs| {
         let at = point(model, parameters, inputs);
-        let value = at.scalar(&claim.function);
-        // As written √x·√x has no value for x < 0.
-        let written = at.evaluate_literally(&claim.function).components();
         let zero = Expr::rational(&Rational::from(0));
-        let exists = literally(|| written.into_iter().fold(value, |sum, own| sum + zero * own));
-        let mut outputs = vec![exists];
+        // As written √x·√x has no value for x < 0, and 0·√x neither.
+        let existing = |formula: &&Formula| {
+            let written = at.evaluate_literally(formula).components();
+            literally(|| written.into_iter().fold(zero, |sum, own| sum + zero * own))
+        };
+        let mut outputs: Vec<Expr> = formulas.iter().map(existing).collect();
+        let value = at.scalar(&claim.function);
+        outputs.push(value);
         outputs.extend(claim.above.iter().map(|bound| value - at.scalar(bound)));
         outputs.extend(claim.below.iter().map(|bound| at.scalar(bound) - value));
         outputs
@@ -126,20 +134,24 @@ fn weigh(
     let mut evaluator = Evaluator::new(&tape, Ball::<1>);
     evaluator.run(&state.iter().map(|x| x.block()).collect::<Vec<_>>());
     let values: Vec<Enclosure> = evaluator.outputs().map(Enclosure::first).collect();
-    if !values[0].is_finite() {
-        let text = claim.function.text().trim();
+    let (existing, values) = values.split_at(formulas.len());
+    let missing = formulas.iter().zip(existing).find(|(_, value)| !value.is_finite());
+    if let Some((formula, _)) = missing {
+        let text = formula.text().trim();
         judgement.leave_open(format!("`{text}` may have no value at the state reached"));
         return Ok(());
     }
     let found = MeasuredNumber { value: values[0].mid, error: values[0].rad };
     judgement.note(claim.function.text().trim(), found, None);
+    let bounds = [(&claim.above, "above"), (&claim.below, "below")];
     let given = bounds.iter().filter_map(|(bound, side)| Some((bound.as_ref()?, side)));
     for ((bound, side), margin) in given.zip(&values[1..]) {
         let bound = bound.text().trim();
         if (-*margin).is_positive() {
             judgement.refute(format!("it is not {side} {bound}"));
         } else if !margin.is_positive() {
-            judgement.leave_open(format!("whether it is {side} {bound} is within the enclosure"));
+            judgement
+                .leave_open(format!("the enclosure does not decide whether it is {side} {bound}"));
         }
     }
     Ok(())

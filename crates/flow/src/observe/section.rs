@@ -7,6 +7,7 @@ use super::judgement::MotionJudgement;
 use super::scene::FollowedCase;
 use crate::{Crossing, FlowError, MeasuredNumber};
 use liouville::claim::motion::{Confined, LimitCycle, SectionCoordinate};
+use liouville::number::rational::Rational;
 
 fn distance(a: &Crossing, b: &Crossing) -> f64 {
     let turn = (a.at[0] - b.at[0]) / (2.0 * PI);
@@ -150,7 +151,8 @@ pub fn confined(claim: &Confined, scene: &FollowedCase<'_>) -> Result<MotionJudg
     judgement.show("highest", rounded(high));
     let all = orbit.crossings.len();
     let told = format!("{beyond} of {all} crossings are beyond");
-    if beyond as f64 > (1.0 - claim.share) * all as f64 {
+    let [inside, needed] = [all - beyond, all].map(|count| Rational::from(count as i64));
+    if inside < &claim.share * &needed {
         judgement.refute(told);
     } else if beyond > 0 {
         judgement.remark = Some(told);

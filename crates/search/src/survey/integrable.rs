@@ -247,20 +247,26 @@ impl HierarchyPlace {
             many => format!("is a torus of dimension {many} with a quasi-periodic motion"),
         };
         let these = match count {
-            1 => "the integral on which its gradient is not 0",
-            _ => "these integrals on which they are independent, and which their fields span,",
+            1 => {
+                "the integral on which its gradient and the equations of motion are not 0, and both are smooth,"
+            }
+            _ => {
+                "these integrals on which they are independent, their fields span it, and they and the \
+                 equations of motion are smooth,"
+            }
         };
         self.typical = vec![format!("a compact connected level of {these} {tori}")];
         if independent > count {
             self.typical.push(match are_curves {
                 true => format!(
                     "superintegrable: {independent} independent integrals on a space of dimension \
-                     {dimension}; where they are independent, each motion on such a torus is closed"
+                     {dimension}; where they are continuous and independent on such a torus, each motion on \
+                     it is closed"
                 ),
                 false => format!(
                     "superintegrable: {independent} independent integrals on a space of dimension \
-                     {dimension}; where they are independent, each motion on such a torus stays on a smaller \
-                     one of dimension at most {}",
+                     {dimension}; where they are continuous and independent on such a torus, each motion on \
+                     it stays on a smaller one of dimension at most {}",
                     dimension.saturating_sub(independent)
                 ),
             });
@@ -270,7 +276,7 @@ impl HierarchyPlace {
 }
 
 const ON_CURVES: &str = "the integrals are as many as to make their joint levels curves where they are \
-                         independent: a compact one without fixed points is a closed orbit";
+                         smooth and independent: a compact one without fixed points is a closed orbit";
 
 #[cfg(test)]
 mod tests {
