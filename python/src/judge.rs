@@ -45,7 +45,8 @@ pub fn check(
         ..Heading::default()
     };
     let path = case.name.clone();
-    let outcome = FileOutcome { path, heading, result: Ok(report), unreached: Vec::new() };
+    let outcome =
+        FileOutcome { path, heading, result: Ok(report), unreached: Vec::new(), is_reached: true };
     let run = RunReport { seed, outcomes: vec![outcome], elapsed: started.elapsed() };
     json::render(&run).map_err(|error| errors::of_output(&error))
 }

@@ -168,13 +168,18 @@ impl<'a> CaseTable<'a> {
     /// Suggested correction of a value of the wrong type.
     fn remedy(&self, key: &str, expected: &str, span: &Range<usize>) -> String {
         let raw = excerpt(self.source.get(span.clone()).unwrap_or_default());
-        let plain = raw.replace(['"', '\''], "");
+        // A prime is no quote.
+        let quote = if raw.contains('"') { '"' } else { '\'' };
+        let plain = raw.replace(quote, "");
         match expected {
             _ if expected.starts_with("an array of tables") => {
                 format!("write [[{key}]] above its entries")
             }
             "a table" => table_of(key),
             "a string" if key == "expect" => "write \"holds\", \"fails\" or \"open\"".to_string(),
+            "a string" if raw.starts_with('[') && plain.len() < raw.len() => format!(
+                "write {key} = \"{plain}\" for a vector, or a [[claim]] with one string for each"
+            ),
             "a string" if !plain.contains('\n') => format!("write {key} = \"{plain}\""),
             "a string" => format!("write {key} = \"…\""),
             "true or false" => format!("write {key} = true or {key} = false, without quotes"),

@@ -5,6 +5,7 @@ use super::kind::Type;
 use super::lexer::TokenKind;
 use super::parser::Parser;
 use super::scope::resolve;
+use super::spelling::split;
 use super::typing::Operand;
 
 /// Units that textbooks write behind numbers.
@@ -37,11 +38,14 @@ impl Parser<'_> {
             return FormulaError::new(token.span.clone(), format!("`{b}` cannot stand here"))
                 .with_help(help);
         }
-        let types = (left.value_type, right.map(|right| right.value_type));
+        let types = (left.value_type, right.as_ref().map(|right| right.value_type));
         if matches!(types, (Type::Vector(_), Some(Type::Vector(_)))) {
             let error = FormulaError::new(token.span, "an operator is missing between two vectors");
             return error.with_help(format!("write `({a},{b})` or `{a} × {b}`"));
         }
+        let known = |piece: &str| resolve(piece, self.scope).is_some();
+        let pieces = split(&b, known).filter(|_| right.is_none()).map(|pieces| pieces.join("*"));
+        let b = pieces.unwrap_or(b);
         if let Some(help) = self.units(left, &token.span, &b) {
             return FormulaError::new(token.span, "missing `*`").with_help(help);
         }
@@ -186,8 +190,9 @@ impl Parser<'_> {
             TokenKind::Range => FormulaError::new(span, format!("`{found}` has no meaning here"))
                 .with_help("a range is written in [parameters] and [state], and in `sum(i, 1..n, …)`; a formula has one value"),
             TokenKind::Comma if self.is_decimal(&span) => {
+                let (before, after) = self.digits_around(&span);
                 FormulaError::new(span, "a decimal number has a point, not a comma")
-                    .with_help("write 0.5 in place of 0,5")
+                    .with_help(format!("write {before}.{after}"))
             }
             TokenKind::Comma => FormulaError::new(span, "a comma is allowed only inside brackets")
                 .with_help("a dot product is written `(a,b)`, a vector `[a,b,c]`"),
@@ -217,13 +222,21 @@ impl Parser<'_> {
         FormulaError::new(sign, format!("`{found}` has no meaning in a formula")).with_help(help)
     }
 
+    /// Digits before and after a comma.
+    fn digits_around(&self, comma: &Span) -> (&str, &str) {
+        let (before, after) = (&self.builder.text[..comma.start], &self.builder.text[comma.end..]);
+        let is_other = |c: char| !c.is_ascii_digit();
+        let whole = before.rsplit(is_other).next().unwrap_or_default();
+        (whole, after.split(is_other).next().unwrap_or_default())
+    }
+
     /// Whether a comma stands between digits.
     fn is_decimal(&self, comma: &Span) -> bool {
-        let (before, after) = (&self.builder.text[..comma.start], &self.builder.text[comma.end..]);
-        let number = before.rsplit(|c: char| !c.is_ascii_digit()).next().unwrap_or_default();
-        let start = before.len() - number.len();
-        let is_alone = !before[..start].ends_with(|c: char| c.is_alphanumeric() || c == '_');
-        !number.is_empty() && is_alone && after.starts_with(|c: char| c.is_ascii_digit())
+        let (before, after) = self.digits_around(comma);
+        let start = comma.start - before.len();
+        let is_part = |c: char| c.is_alphanumeric() || matches!(c, '_' | '.');
+        let is_alone = !self.builder.text[..start].ends_with(is_part);
+        !before.is_empty() && is_alone && !after.is_empty()
     }
 
     /// The error for `a × b × c`, read up to its second sign.

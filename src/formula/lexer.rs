@@ -190,7 +190,9 @@ fn stray(c: char, span: Span, before: &str) -> FormulaError {
         '\\' => error.with_help("formulas are not LaTeX: write `a/b`, `√a`, `γ`, `a*b`"),
         '&' => error.with_help("write conditions one after the other, separated by commas"),
         '!' => error.with_help("write n! as `product(k, 1..n, k)`"),
-        '%' => error.with_help("write `k mod n`, in an index"),
+        '%' => error.with_help("write 5 % as 0.05; a remainder is `k mod n`, in an index"),
+        '∛' => error.with_help("write `x^(1/3)`"),
+        '÷' | ':' => error.with_help("write `a/b`"),
         _ => error
             .with_help("formulas have names, numbers and the signs + − * / ^ √ × ⊗ ∫ | ( ) [ ]"),
     }

@@ -12,7 +12,7 @@ use super::{binders, functions};
 const MOST_LISTED: usize = 24;
 
 /// Functions of other languages, and their notation here.
-const ELSEWHERE: [(&[&str], &str); 22] = [
+const ELSEWHERE: [(&[&str], &str); 25] = [
     (
         &["grad", "gradient", "nabla", "diff", "derivative", "d"],
         "write `∂F/∂x`, or `partial(F, x)`",
@@ -25,6 +25,9 @@ const ELSEWHERE: [(&[&str], &str); 22] = [
     (&["coth", "cth"], "write `1/tanh(x)`"),
     (&["tg"], "write `tan(x)`"),
     (&["arctg"], "write `atan(x)`"),
+    (&["arcsinh", "arsh"], "write `asinh(x)`"),
+    (&["arccosh", "arch"], "write `acosh(x)`"),
+    (&["arctanh", "arth"], "write `atanh(x)`"),
     (&["sh"], "write `sinh(x)`"),
     (&["ch"], "write `cosh(x)`"),
     (&["th"], "write `tanh(x)`"),
@@ -98,6 +101,10 @@ impl Parser<'_> {
         }
         if let Some(pieces) = split(name, known) {
             return Some(format!("write `{}`?", pieces.join("*")));
+        }
+        let stem = name.trim_end_matches(|c: char| c.is_ascii_digit());
+        if stem.len() < name.len() && !called && functions::is_function(stem) {
+            return Some(format!("write `{stem}({})`", &name[stem.len()..]));
         }
         let is_lagrangian = known("energy") && !["γ", "ω"].iter().any(|own| known(own));
         if let ("T" | "U" | "V" | "L", false, true) = (name, called, is_lagrangian) {

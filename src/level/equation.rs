@@ -1,7 +1,7 @@
 //! An equation of a level in the form in which it is solved: F = 0, or A − e² = 0 in place of √A =
 //! e.
 
-use num_dual::{Dual, DualNum};
+use num_dual::Dual;
 use num_traits::{One, Zero};
 
 use crate::graph::Expr;
@@ -116,21 +116,4 @@ impl PartialPoint<'_> {
         let state: Vec<Dual<Expr>> = self.state.iter().map(|x| Dual::from_re(*x)).collect();
         equation.value(&Phase::new(self.model, &parameters, &state)).eps
     }
-}
-
-/// Computes the determinant of a small matrix given by rows, expanded by minors.
-pub fn determinant<T: DualNum<Primitive = f64> + Copy>(rows: &[Vec<T>]) -> T {
-    let n = rows.len();
-    let mut minors = vec![T::zero(); 1 << n];
-    minors[0] = T::one();
-    for columns in 1usize..1 << n {
-        let row = columns.count_ones() as usize - 1;
-        let mut sum = T::zero();
-        for (place, j) in (0..n).filter(|j| columns >> j & 1 == 1).enumerate() {
-            let term = rows[row][j] * minors[columns & !(1 << j)];
-            sum = if (row + place).is_multiple_of(2) { sum + term } else { sum - term };
-        }
-        minors[columns] = sum;
-    }
-    minors[(1 << n) - 1]
 }

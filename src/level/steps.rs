@@ -3,10 +3,10 @@
 use num_dual::DualNum;
 use num_traits::{One, Zero};
 
-use super::equation::{Equation, PartialPoint, determinant};
+use super::equation::{Equation, PartialPoint};
 use super::frame::Frame;
 use crate::graph::Expr;
-use crate::mechanics::elimination::{gram, gram_determinant};
+use crate::mechanics::elimination::{determinant, gram, gram_determinant};
 use crate::number::rational::Rational;
 use crate::scalar::Scalar;
 

@@ -114,7 +114,7 @@ impl Kernel for Fill<'_> {
                         for lane in 0..ROW_STATES {
                             let scaled = u64::from(number(bits[lane])) * values.len() as u64;
                             let index = scaled >> 32;
-                            row.0[lane] = values.get(index as usize).copied().unwrap_or(0.0);
+                            row.0[lane] = values.get(index as usize).copied().unwrap_or(f64::NAN);
                         }
                     }
                 }

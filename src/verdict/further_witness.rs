@@ -5,7 +5,7 @@ use super::ends::near_ends;
 use super::existence::AtNumbers;
 use super::judging::Judging;
 use super::ladder::{FEW_OPERATIONS, LADDER_BITS};
-use super::missing::beside;
+use super::missing::neighbours;
 use super::recorded::RecordedClaim;
 use super::sampler::Sampler;
 use crate::number::mixed::{Mixed, Number};
@@ -27,7 +27,7 @@ impl Judging<'_> {
             return false;
         }
         let drawn = (0..DRAWN).filter_map(|index| numbers(sampler, index));
-        let near = (0..DRAWN).flat_map(|index| beside(sampler, index));
+        let near = (0..DRAWN).flat_map(|index| neighbours(sampler, index));
         let mut all = drawn.chain(near).chain(near_ends(sampler).take(NEAR_ENDS));
         all.any(|numbers| self.examined_at(item, sampler, &numbers, status) == AtNumbers::Refuted)
     }

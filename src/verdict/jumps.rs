@@ -66,13 +66,16 @@ impl Judging<'_> {
             let ends = [2 * line, 2 * line + 1].map(|index| sampler.nearest_draws(index));
             let line = Line::between(sampler, ends, graph.inputs());
             let jump = line.jump(&mut along).filter(|jump| line.is_real(&mut precise, jump))?;
-            let place = 0.5 * (jump.sides[0] + jump.sides[1]);
+            let [low, high] = jump.sides;
+            // Between the sides a coordinate may have no value.
+            let places = std::array::from_fn(|k| [0.5 * (low + high), low, high][k.min(2)]);
             let model = &self.case.model;
             let state = &sampler.made()[model.free_components()..];
             let tape = Tape::new(sampler.graph(), state);
             let mut state = Along::Single(Evaluator::new(&tape, Float::<POINTS>));
-            let state = line.values(&mut state, [place; POINTS]);
-            let state = state.iter().map(|x| x[0]).collect::<Vec<_>>();
+            let state = line.values(&mut state, places);
+            let at = (0..POINTS).find(|k| state.iter().all(|x| x[*k].is_finite())).unwrap_or(0);
+            let state = state.iter().map(|x| x[at]).collect::<Vec<_>>();
             Some(briefly(model, &state))
         })
     }

@@ -19,30 +19,32 @@ use crate::number::rational::Rational;
 /// many operations.
 const MOST_MISSING: usize = 16;
 /// Number of steps through a range, of which states beside another are a few away.
-const BESIDE: i64 = 1 << 30;
+const NEAR: i64 = 1 << 30;
 /// Share of doubtful states above which a claim is not confirmed: one in this many.
 const MAX_DOUBTFUL: usize = 4;
 
-/// Lists draws of two states beside a drawn one, on opposite sides of it, in the ranges.
-pub(super) fn beside(sampler: &Sampler, index: u64) -> [Vec<Rational>; 2] {
+/// Lists draws of two states near a drawn one, on opposite sides of it, in the ranges; none if a draw is not
+/// exact.
+pub(super) fn neighbours(sampler: &Sampler, index: u64) -> Vec<Vec<Rational>> {
     let exact = sampler.drawn(&Mixed::new(LADDER_BITS[0]), 1, index);
-    [1, -1].map(|side| {
+    let on_side = |side: i64| {
         let moved = |(k, (value, draw)): (usize, (&Number, &Draw))| {
-            let Number::Exact(value) = value else { return Rational::from(0) };
-            let step = Rational::new(side * (k as i64 % 7 + 1), BESIDE);
+            let Number::Exact(value) = value else { return None };
+            let step = Rational::new(side * (k as i64 % 7 + 1), NEAR);
             match draw {
                 Draw::Within(range) => {
                     let away = &step * &(&range.high - &range.low);
                     let moved = value + &away;
                     let is_inside = moved >= range.low && moved <= range.high;
-                    if is_inside { moved } else { value - &away }
+                    Some(if is_inside { moved } else { value - &away })
                 }
-                Draw::Of(..) => value + &step,
-                Draw::OneOf(_) | Draw::Sign => value.clone(),
+                Draw::Of(..) => Some(value + &step),
+                Draw::OneOf(_) | Draw::Sign => Some(value.clone()),
             }
         };
         exact.iter().zip(sampler.recipes()).enumerate().map(moved).collect()
-    })
+    };
+    [1, -1].into_iter().filter_map(on_side).collect()
 }
 
 impl Judging<'_> {
@@ -118,7 +120,7 @@ impl Judging<'_> {
                 match (existing[0], residual[0]) {
                     // √0 may exist at this state alone: then the claim says nothing.
                     (true, true) if status.is_zero => {
-                        let beside = beside(sampler, index).into_iter().any(|numbers| {
+                        let beside = neighbours(sampler, index).into_iter().any(|numbers| {
                             let values = run.at(&domain, &sampler.made_from(&domain, &numbers));
                             layout.existing(&values, span)[0]
                         });

@@ -170,3 +170,61 @@ fn systems_without_a_bracket_are_refused() {
     let told = mistake(driven, "involution = ['p − cos(t)', 'p − cos(t)']\ntheorem = 'Liouville'");
     assert!(told.contains("without `t`"), "{told}");
 }
+
+#[test]
+fn hypotheses_hold_where_all_formulas_have_values() {
+    let plane = |bracket: &str| {
+        format!(
+            "title = 'plane'\n[state]\nq = '1..2'\np = '-1..1'\n[field]\n\"q'\" = 'p'\n\"p'\" = '-q'\n\
+             [poisson]\n'q,p' = '{bracket}'"
+        )
+    };
+    let both = [
+        "involution = ['p² + q²']\ntheorem = 'Liouville'",
+        "involution = ['p² + q²', '(p² + q²)²']",
+    ];
+    check(&plane("exp(log(q))/q"), &both.map(|claim| (Proved, claim)));
+    // For q > 0 the bracket has a value at no state.
+    check(&plane("exp(log(-q))/(-q)"), &both.map(|claim| (Undecided, claim)));
+}
+
+#[test]
+fn functions_may_depend_on_no_open_constant() {
+    let head = "title = 'two oscillators'\n[state]\nq = '-1..1'\np = '-1..1'\nx = '-1..1'\ny = '-1..1'\n[hamiltonian]\n\
+                function = '(p² + q²)/2 + x² + y²'\npairs = [['q', 'p'], ['x', 'y']]";
+    let with = |second: &str| format!("involution = ['energy', '{second}']\ntheorem = 'Liouville'");
+    let (number, open) = (with("2*(x² + y²)"), with("∫(0,x)*(x² + y²)"));
+    // For the constant 0 the second function is 0.
+    check(head, &[(Proved, &number), (Undecided, &open)]);
+}
+
+#[test]
+fn ranks_are_asked_on_parts_without_known_states() {
+    let head = |other: &str| {
+        format!(
+            "title = 'two parts'\n[state]\nq = '-1..1'\np = '-1..1'\nx = '-1..1'\ny = '-1..1'\nz = '-1..1'\nw = '-1..1'\n\
+             [field]\n\"q'\" = 'p'\n\"p'\" = '-q'\n\"x'\" = '0'\n\"y'\" = '0'\n\"z'\" = '0'\n\"w'\" = '0'\n\
+             [poisson]\n'q,p' = '1'\n[level]\nequations = ['x*(y - {other}) = 0']"
+        )
+    };
+    let claim = "involution = ['q² + p²', 'y', 'z', 'w']\ntheorem = 'Liouville'";
+    // On the second part y depends on z. The first draws find no state of it.
+    for other in ["z^5 - z + 1/3", "10^30*(z^5 + z - 1/3)", "exp(100*(z^5 + z + 2))"] {
+        check(&head(other), &[(Undecided, claim)]);
+    }
+}
+
+#[test]
+fn the_dimension_of_tori_is_that_of_the_place() {
+    let text = "title = 'top'\n[state]\nM = 'vector(-1..1)'\ng = 'vector(-1..1)'\n[hamiltonian]\n\
+                function = '(M,M)/2 + M3² + g3'\nbracket = { structure = 'e(3)' }\n[level]\nequations = ['(g,g) = 1']\n\
+                [[claim]]\ninvolution = ['energy', 'M3', '(M,g)', '(g,g)']\ntheorem = 'Liouville'\nwhere = 'everywhere'\n\
+                [[claim]]\ninvolution = ['energy', 'M3', '(M,g)']\ntheorem = 'Liouville'\n";
+    let case = Case::parse(text, &[]).unwrap_or_else(|error| panic!("{error}"));
+    let report = judge(&case, &Options::default()).unwrap_or_else(|error| panic!("{error}"));
+    for claim in &report.claims {
+        assert_eq!(claim.verdict, Proved, "{:?}", claim.evidence);
+        let remark = claim.evidence.remark.as_deref().unwrap_or_default();
+        assert!(remark.contains("torus of dimension 2"), "{remark}");
+    }
+}

@@ -129,3 +129,18 @@ fn a_list_says_what_each_number_says() {
     }
     assert!(held > 20 && failed > 20, "{held} hold, {failed} do not");
 }
+
+#[test]
+fn remarks_are_those_of_the_numbers() {
+    let text = file(
+        "a = 'one of 2, 4'",
+        PLANE,
+        MOVING,
+        "",
+        &["symmetry = { y = 'y*(1 + y^a)' }", "lyapunov = '-(y^a)'"],
+    );
+    for claim in report(&text, &[]).claims {
+        let remark = claim.evidence.remark.unwrap_or_default();
+        assert!(!remark.contains("nothing is said at"), "y < 0 counts: {remark}");
+    }
+}

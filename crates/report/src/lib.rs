@@ -46,6 +46,8 @@ pub struct FileOutcome {
     pub result: Result<CaseReport, Vec<FileFailure>>,
     /// Names of the claims that were not reached when the run was stopped.
     pub unreached: Vec<String>,
+    /// Whether the file itself was reached; otherwise the result is the reason why not.
+    pub is_reached: bool,
 }
 
 /// Reason why a file could not be judged.
@@ -160,6 +162,9 @@ pub struct Summary {
     /// Number of claims that were not reached when the run was stopped.
     #[serde(skip_serializing_if = "is_zero")]
     pub unreached: usize,
+    /// Number of files that were not reached when the run was stopped.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub unreached_files: usize,
     /// Number of claims about motion that were skipped.
     #[serde(skip_serializing_if = "is_zero")]
     pub motions_left: usize,
@@ -230,6 +235,7 @@ impl RunReport {
                     summary.motions_left += report.motions_left;
                     summary.absences_left += report.absences_left;
                 }
+                Err(_) if !outcome.is_reached => summary.unreached_files += 1,
                 Err(_) => summary.errors += 1,
             }
         }
@@ -261,7 +267,7 @@ impl RunReport {
         let summary = self.summary();
         let survived = summary.mutants.map_or(0, |mutants| mutants.survived);
         match (summary.errors, summary.disagreements + survived) {
-            (0, 0) if summary.unreached > 0 => 3,
+            (0, 0) if summary.unreached + summary.unreached_files > 0 => 3,
             (0, 0) => 0,
             (0, _) => 1,
             _ => 2,

@@ -204,3 +204,51 @@ integral = "q₁'*q2 − q1*q′₂"
     );
     assert_eq!(told[0].1, "unknown name `x2'`");
 }
+
+#[test]
+fn names_that_are_declared_later_have_no_other_meaning() {
+    // The state `e` is not the number, whatever is read first.
+    settled(
+        r#"
+title = "e"
+[parameters]
+k = "2*π"
+[state]
+e = "-1..1"
+[let]
+u = "2*e"
+[field]
+"e'" = "k"
+[[claim]]
+rate = "u"
+equals = "4*π"
+"#,
+    );
+    let with = |parameter: &str| {
+        format!(
+            "title = 'e'\n[parameters]\na = 'vector(1..2)'\nk = '{parameter}'\n[state]\ne = '-1..1'\na1 = '-1..1'\n\
+             [let]\nu = '2*e'\n[field]\n\"e'\" = 'k'\n\"a1'\" = 'k'\n[[claim]]\nidentity = 'k = k'\n"
+        )
+    };
+    for parameter in ["u", "2*e", "2*a1"] {
+        Case::parse(&with(parameter), &[]).expect_err("it depends on the state");
+    }
+    Case::parse(&with("2*a2"), &[]).expect("a component of the parameter");
+    // An index hides the names of the file.
+    settled(
+        r#"
+title = "indices"
+[parameters]
+k = "1..2"
+[state]
+x = "-1..1"
+[let]
+e = "u + k"
+u = "sum(e, 1..3, e*k)"
+[field]
+"x'" = "u"
+[[claim]]
+identity = "e = 7*k"
+"#,
+    );
+}

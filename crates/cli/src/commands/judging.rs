@@ -125,11 +125,12 @@ impl Slot {
     fn outcome(&mut self, stop: Option<Stop>) -> FileOutcome {
         let path = self.path.display().to_string();
         let heading = std::mem::take(&mut self.heading);
+        let is_reached = self.is_read || self.result.is_some();
         let (result, unreached) = match (self.result.take(), stop) {
             (Some(result), _) => (result, Vec::new()),
             (None, stop) => self.unfinished(stop.unwrap_or(Stop::Failed)),
         };
-        FileOutcome { path, heading, result, unreached }
+        FileOutcome { path, heading, result, unreached, is_reached }
     }
 
     /// Verdicts so far, and the other claims as undecided, with their names.

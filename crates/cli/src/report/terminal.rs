@@ -308,6 +308,9 @@ fn summary(run: &RunReport) -> String {
     if summary.unreached > 0 {
         line.push_str(&format!("; {} not reached", count(summary.unreached, "claim")));
     }
+    if summary.unreached_files > 0 {
+        line.push_str(&format!("; {} not reached", count(summary.unreached_files, "file")));
+    }
     if summary.motions_left > 0 {
         let left = count(summary.motions_left, "claim");
         line.push_str(&format!("; {left} about motion not looked at: add --motion"));

@@ -205,3 +205,20 @@ fn a_function_without_a_value_at_the_end_is_not_reached() {
         assert_eq!(claim(GROWTH, &there).verdict, Verdict::Proved, "{function}");
     }
 }
+
+#[test]
+fn bounds_without_a_value_are_not_compared() {
+    let bounded = |bound: &str| {
+        let rest = "state = { x = \"1\" }\ntime = 1";
+        claim(GROWTH, &format!("reaches = \"x\"\n{bound}\n{rest}"))
+    };
+    for bound in ["0*sqrt(x − 5)", "(x − e)/(x − e)", "log(x − 5) − log(x − 5)"] {
+        for side in ["above", "below"] {
+            let found = bounded(&format!("{side} = \"{bound}\""));
+            assert_eq!(found.verdict, Verdict::Undecided, "{side} {bound}: {:?}", found.evidence);
+            let reason = found.evidence.reason.unwrap_or_default();
+            assert!(reason.contains("may have no value"), "{bound}: {reason}");
+        }
+    }
+    assert_eq!(bounded("above = \"0*sqrt(x + 5)\"").verdict, Verdict::Proved, "it has a value");
+}

@@ -5,6 +5,7 @@ use std::sync::OnceLock;
 
 use super::{ball, is_there, of_motions, run, text, verified};
 use liouville_cli::report::motion_certificate::sealed;
+use liouville_cli::report::sha256;
 use serde_json::Value;
 
 /// Writes the certificate of a horseshoe of a case.
@@ -54,6 +55,14 @@ fn one_window_is_enough_for_both_rectangles_on_the_saddles_surface() {
     let wider = changed(&whole, &window, &|own| number(valued(own) * 1.2));
     let refusal = verified(&wider).expect_err("a window that is wider than the room allows");
     assert!(refusal.contains(&format!("`proof.relations[{last}]`")), "{refusal}");
+    let mut statement = whole["statement"].clone();
+    let other = |value: &Value| value.as_str().expect("a text").replace("7.8540", "7.8640");
+    let text = other(&statement["case"]["text"]);
+    statement["case"]["sha256"] = sha256(&text).into();
+    statement["case"]["text"] = text.into();
+    statement["claim"]["formula"] = other(&statement["claim"]["formula"]).into();
+    let refusal = verified(&sealed(statement, whole["proof"].clone())).expect_err("another period");
+    assert!(refusal.contains("the period is not 7.8640"), "{refusal}");
 }
 
 /// The last set of the short loop, which covers the first set.

@@ -27,7 +27,7 @@ v = "-2..2"
 "y'" = "v"
 "v'" = "−y"
 [[claim]]
-horseshoe = 6.2831853072
+horseshoe = 6.2832
 state = { x = "0", u = "0", y = "1", v = "0" }
 integrals = ["(u² + v² − x² + y²)/2 + x^4/4"]
 integral = "none"
