@@ -182,7 +182,12 @@ impl Judging<'_> {
                 Ok(match known {
                     CellRank::Full => None,
                     CellRank::Drops => Some(format!("on a part of the states {otherwise}")),
-                    CellRank::Unknown => Some(format!("it is not known whether {otherwise}")),
+                    CellRank::Unknown if condition.is_essential => {
+                        Some(format!("it is not known whether {otherwise}"))
+                    }
+                    CellRank::Unknown => {
+                        Some(format!("it is not excluded that on a part of the states {otherwise}"))
+                    }
                 })
             }
             Need::NotZero { value } => {

@@ -75,6 +75,14 @@ pub enum JudgeError {
     /// No state could be drawn.
     #[error("no state on the level set was found among {0} starts")]
     Unreachable(u64),
+    /// More digits of a value are asked for than can be computed.
+    #[error("{wanted} digits are too many: at most {most} are computed")]
+    TooManyDigits {
+        /// Number of digits asked for.
+        wanted: usize,
+        /// Largest number.
+        most: usize,
+    },
     /// The numbers of the states are beyond the range of f64.
     #[error("none of {0} states could be drawn: their numbers are beyond the range of f64")]
     Overflow(u64),
@@ -158,6 +166,7 @@ impl JudgeError {
     /// Suggests a remedy.
     pub fn help(&self) -> &'static str {
         match self {
+            JudgeError::TooManyDigits { .. } => "ask for fewer digits",
             JudgeError::Fault(_) => "write the formula with operations that hold for every number",
             JudgeError::Overflow(_) => "check the ranges of [parameters] and [state]",
             JudgeError::FieldOverflow(_) => {

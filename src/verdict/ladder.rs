@@ -34,6 +34,10 @@ pub const FEW_OPERATIONS: usize = 4096;
 /// Number of states tried to find one of them.
 const PRECISE_TRIES: u64 = 8;
 
+/// Reason why a claim that fails at a state is not refuted.
+const LONE: &str = "it fails at a state around which no state has values of all that is written: such a \
+                    state does not count";
+
 pub type Open<'f, 'r> = Vec<(&'f RecordedClaim<'r>, &'f mut ClaimState)>;
 
 impl Judging<'_> {
@@ -94,6 +98,12 @@ impl Judging<'_> {
             status.evidence.operations = self.graph.operations(&item.residual);
         }
         self.first_states(sampler, open);
+        for (item, status) in open.iter_mut() {
+            if self.is_refuted_at_lone(item, sampler, status)? {
+                status.settled = None;
+                status.evidence.witness = None;
+            }
+        }
         let settled = open.iter().filter(|(_, status)| status.settled.is_some());
         self.tell(settled.count() as f64);
         if self.options.trust != Trust::Float {
@@ -133,6 +143,12 @@ impl Judging<'_> {
         {
             let confirmed = open.iter_mut().filter(|(_, status)| is_confirmed(status));
             confirmed.for_each(|(_, status)| undecide(status, reason.to_string()));
+        }
+        for (item, status) in open.iter_mut() {
+            if self.is_refuted_at_lone(item, sampler, status)? {
+                status.evidence.witness = None;
+                undecide(status, LONE.to_string());
+            }
         }
         self.second_opinion(sampler, open)?;
         Ok(())

@@ -104,6 +104,10 @@ impl Judging<'_> {
                     }
                     continue;
                 }
+                // √0 may exist at this state alone, which then does not count.
+                if existing[0] && !self.has_neighbour(sampler, index, &run, &layout) {
+                    continue;
+                }
                 let seen = BlockValues { values: &values, existing: &existing };
                 let residual = span.residual.clone();
                 if self.seek_witness(
@@ -118,16 +122,6 @@ impl Judging<'_> {
                 }
                 let residual = values.existing(&[residual]);
                 match (existing[0], residual[0]) {
-                    // √0 may exist at this state alone: then the claim says nothing.
-                    (true, true) if status.is_zero => {
-                        let beside = neighbours(sampler, index).into_iter().any(|numbers| {
-                            let values = run.at(&domain, &sampler.made_from(&domain, &numbers));
-                            layout.existing(&values, span)[0]
-                        });
-                        if beside {
-                            status.undefined = None;
-                        }
-                    }
                     (true, true) => status.undefined = None,
                     // Where √X is 0 on an open set, its derivative is not X'/(2√X).
                     (true, false) => partial = partial.or(Some(index)),

@@ -36,6 +36,7 @@ mod level_slopes;
 mod listed_levels;
 mod listed_powers;
 mod local_form;
+mod lone_states;
 mod missing;
 mod moduli;
 mod mutants;
@@ -76,7 +77,9 @@ pub use judge::{
 };
 pub use mutants::{MutantReport, MutationReport};
 pub(crate) use point::named;
-pub use point::{Digits, Enclosed, NamedValue, OVERFLOW, PointReport, evaluate, evaluate_digits};
+pub use point::{
+    Digits, Enclosed, MOST_DIGITS, NamedValue, OVERFLOW, PointReport, evaluate, evaluate_digits,
+};
 pub use sampler::{Sampler, TAPE_LANES};
 pub use state::{StateError, read_state};
 pub use statement::{Composed, Residuals, statements};

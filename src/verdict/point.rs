@@ -84,7 +84,11 @@ pub fn evaluate(
     Ok(scene.report(values.iter().enumerate().map(enclosed).collect()))
 }
 
-/// Evaluates all quantities to `wanted` significant decimal digits, all of them correct.
+/// Largest number of digits of [`evaluate_digits`].
+pub const MOST_DIGITS: usize = 2000;
+
+/// Evaluates all quantities to `wanted` significant decimal digits, at most [`MOST_DIGITS`], all of them
+/// correct.
 ///
 /// A number that the highest precision cannot separate from 0 is written as `0`.
 pub fn evaluate_digits(
@@ -94,6 +98,9 @@ pub fn evaluate_digits(
     index: u64,
     wanted: usize,
 ) -> Result<PointReport<Digits>, JudgeError> {
+    if wanted > MOST_DIGITS {
+        return Err(JudgeError::TooManyDigits { wanted, most: MOST_DIGITS });
+    }
     let scene = PointScene::new(case, state, seed, index)?;
     let mut bits = (wanted as f64 * BITS_PER_DIGIT) as u32 + SPARE_BITS;
     let mut found: Vec<Digits> = Vec::new();

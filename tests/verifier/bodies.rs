@@ -6,7 +6,7 @@
 use crate::common::{assert_meet, case, claim, claim_text, exact, excludes_zero};
 use crate::random::{config, inertia, number, numbers, potential, profile, support, vector};
 use liouville::case::{Case, Setting};
-use liouville::verdict::{Enclosed, PointReport, evaluate};
+use liouville::verdict::{Enclosed, Options, PointReport, evaluate, judge};
 use num_traits::ToPrimitive;
 use proptest::prelude::*;
 
@@ -201,5 +201,26 @@ proptest! {
             );
             prop_assert!(i != 3 || far > blur, "γ₁' feels the curvature: {far:e}, error {blur:e}");
         }
+    }
+}
+
+#[test]
+fn impossible_bodies_of_every_kind_have_a_warning() {
+    for (path, setting, words) in [
+        ("plane/unbalanced-ball.toml", ("m", "-1"), "the mass is not positive"),
+        ("open/flat-base-gyrostat-across.toml", ("m", "-1"), "the mass is not positive"),
+        (
+            "open/flat-base-gyrostat-across.toml",
+            ("I", "[1, 1, 3]"),
+            "violate a triangle inequality",
+        ),
+        ("open/flat-base-gyrostat-across.toml", ("I", "[1, 1, -1]"), "not positive definite"),
+    ] {
+        let text = std::fs::read_to_string(format!("{}/{path}", crate::CASES)).expect("a case");
+        let setting = Setting { name: setting.0.to_string(), value: setting.1.to_string() };
+        let case = Case::parse(&text, &[setting]).unwrap_or_else(|error| panic!("{path}: {error}"));
+        let report = judge(&case, &Options::default()).unwrap_or_else(|error| panic!("{error}"));
+        let told = report.warnings.join("\n");
+        assert!(told.contains(words), "{path}: {told}");
     }
 }

@@ -1,0 +1,45 @@
+//! Claims whose residual contains an ∫: refuted where it vanishes for no constant, and undecided where it may for one,
+//! however far away.
+
+use liouville::case::Case;
+use liouville::verdict::{Options, Verdict, judge};
+
+fn verdict(state: &str, claim: &str) -> Verdict {
+    let text = format!("title = 't'\n[parameters]\nk = '1..2'\n{state}\n[[claim]]\n{claim}\n");
+    let case = Case::parse(&text, &[]).unwrap_or_else(|error| panic!("{error}\n{text}"));
+    judge(&case, &Options::default()).unwrap_or_else(|error| panic!("{error}\n{text}")).claims[0]
+        .verdict
+}
+
+const RUNNING: &str = "[state]\nx = '1/2..2'\n[field]\n\"x'\" = '1'";
+const FREE: &str = "[state]\nx = '-1/4..1/4'\nv = '-1/4..1/4'\n[field]\n\"x'\" = 'v'\n\"v'\" = '0'";
+
+#[test]
+fn what_may_hold_for_a_constant_is_not_refuted() {
+    for number in ["5", "10^5", "10^15", "10^30"] {
+        for sign in ["+", "-"] {
+            let claim = format!("integral = 'x*(∫(0,x) {sign} {number})'");
+            assert_eq!(verdict(RUNNING, &claim), Verdict::Undecided, "{claim}");
+        }
+    }
+    for function in [
+        "x*(3000 − abs(∫(0,x) − 1000) − abs(∫(0,x) + 1000))",
+        "x*(exp(∫(0,x)) − 10^20)",
+        "x*(1 − 1/(1 + (∫(0,x) − 10^9)²))",
+        "x*sin(∫(0,x))",
+    ] {
+        let claim = format!("integral = '{function}'");
+        assert_eq!(verdict(RUNNING, &claim), Verdict::Undecided, "{claim}");
+    }
+    assert_eq!(verdict(FREE, "integral = 'x*(∫(0,v)/299792458² + 1)'"), Verdict::Undecided);
+}
+
+#[test]
+fn what_holds_for_no_constant_is_refuted() {
+    for function in
+        ["x*exp(∫(0,x))", "x*exp(k*∫(0,x) + x)", "x + ∫(0,x)", "x*∫(0,x) − ∫(0,x)*x + x"]
+    {
+        let claim = format!("integral = '{function}'");
+        assert_eq!(verdict(RUNNING, &claim), Verdict::Refuted, "{claim}");
+    }
+}
