@@ -39,7 +39,9 @@ impl Judging<'_> {
             for condition in &item.conditions {
                 let is_open = |value: &Expr| self.has_open_constant(*value);
                 if condition.is_essential && condition.need.values().iter().any(is_open) {
-                    undecide(status, OPEN_CONSTANT.to_string());
+                    if !self.holds_of_all_values(item)? {
+                        undecide(status, OPEN_CONSTANT.to_string());
+                    }
                     continue;
                 }
                 let asks_one_to_one = matches!(condition.need, Need::OneToOne { .. });

@@ -2,7 +2,8 @@
 //! perhaps, where they do not for those drawn.
 //!
 //! A residual R = c(x) e^(ks) of the value s, with k a number or a function of the parameters, vanishes for
-//! all constants or for none. The form is read off the operations that make it, so that it is certain.
+//! all constants or for none. The form is read off the operations that make it, so that it is certain, or
+//! R(s + δ) = R(s) is proved for all δ.
 
 use num_traits::Zero;
 
@@ -13,6 +14,7 @@ use crate::graph::{Expr, Fault, Graph, Step, record};
 use crate::number::ball::Ball;
 use crate::number::rational::Rational;
 use crate::number::{BinaryOperation, UnaryFunction};
+use crate::proof::{Group, GroupOutcome, Prover};
 use crate::scalar::Scalar;
 
 impl Judging<'_> {
@@ -29,7 +31,9 @@ impl Judging<'_> {
         for residual in &item.residual {
             let mut is_multiple = true;
             for constant in self.constants_in(*residual) {
-                is_multiple = is_multiple && self.is_multiple(*residual, constant)?;
+                is_multiple = is_multiple
+                    && (self.is_multiple(*residual, constant)?
+                        || self.is_independent_of(*residual, constant)?);
             }
             // Without an ∫ it is as it is, and it has to be one that does not vanish.
             let values = self.run(&[*residual]).at(&Ball::<TAPE_LANES>, &states);
@@ -50,6 +54,23 @@ impl Judging<'_> {
     fn constants_in(&self, value: Expr) -> impl Iterator<Item = usize> {
         let inputs = self.inputs;
         self.graph.inputs_of(value).into_iter().filter(move |input| *input >= inputs)
+    }
+
+    /// Whether it is proved that a residual is the same for all values of an ∫, whatever the state.
+    fn is_independent_of(&self, residual: Expr, constant: usize) -> Result<bool, Fault> {
+        let count = self.graph.inputs();
+        let reached = self.graph.reached([residual]);
+        let (graph, change) = record(count + 1, |inputs| {
+            let mut shifted = inputs[..count].to_vec();
+            shifted[constant] += inputs[count];
+            let of =
+                |inputs: &[Expr]| self.graph.repeated(&reached, inputs)[self.graph.place(residual)];
+            Some(of(&shifted)? - of(&inputs[..count])?)
+        })?;
+        let Some(change) = change else { return Ok(false) };
+        let prover = Prover { sources: &[], extents: &[], seed: self.options.seed };
+        let outcomes = prover.prove(&graph, &[Group::of(vec![change])])?;
+        Ok(outcomes.iter().all(GroupOutcome::is_zero))
     }
 
     /// Whether a residual is seen to have the form c(x) e^(ks) in the value s of an ∫.

@@ -17,10 +17,10 @@ use super::{CommandOutput, LimitArgs, colour, source};
 
 fn parse_digits(text: &str) -> Result<usize, String> {
     let digits: usize = text.parse().map_err(|_| "write a number of digits".to_string())?;
-    (1..=2000)
+    (1..=verdict::MOST_DIGITS)
         .contains(&digits)
         .then_some(digits)
-        .ok_or("write a number from 1 to 2000".to_string())
+        .ok_or(format!("write a number from 1 to {}", verdict::MOST_DIGITS))
 }
 
 #[derive(Debug, Args)]
