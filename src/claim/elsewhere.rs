@@ -4,14 +4,19 @@ use num_traits::Zero;
 
 use super::{Condition, Need};
 use crate::formula::Formula;
-use crate::graph::{Expr, edges};
+use crate::graph::{Expr, edges, has_roots};
 use crate::mechanics::{Model, Phase};
 
 /// Records the equations of motion as written at a point: where they have no value the point is not in
 /// phase space.
 pub(super) fn system_at(at: &Phase<'_, Expr>) -> Vec<Expr> {
     let formulas = at.model().equations_of_motion().into_iter();
-    formulas.flat_map(|formula| written_at(at, formula)).collect()
+    let mut values: Vec<Expr> = formulas.flat_map(|formula| written_at(at, formula)).collect();
+    // √x² has a value at 0, and no slope.
+    if has_roots(&values) {
+        values.extend(at.motion_as_written());
+    }
+    values
 }
 
 /// Records a formula as written at a point, with what its value does not show.

@@ -83,7 +83,12 @@ impl Statement for Lyapunov {
     }
 
     fn formulas(&self) -> Vec<&Formula> {
-        [&self.function].into_iter().chain(&self.rate).chain(&self.form).collect()
+        // States at which another form of the rate has no value count as well.
+        [&self.function].into_iter().chain(&self.rate).collect()
+    }
+
+    fn presence(&self, jet: &DualPoint<'_, Expr>) -> Vec<Expr> {
+        vec![self.growth(jet)]
     }
 
     fn text(&self) -> Option<String> {

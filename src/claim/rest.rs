@@ -44,7 +44,7 @@ pub(super) fn without_density(model: &Model) -> Option<String> {
 /// Proves that the direction is a rest and that C₁ is not 0 there.
 fn excludes(model: &Model, direction: RestDirection, up: bool) -> Option<()> {
     let draws = model.parameter_draws();
-    let (graph, (torque, along)) = record(draws.len(), |inputs| {
+    let (graph, (torque, written, along)) = record(draws.len(), |inputs| {
         let (free, _) = model.make_parameters(inputs);
         let zero = Expr::from(0.0);
         let phase_at = |gamma: Vector3<Expr>| {
@@ -73,7 +73,7 @@ fn excludes(model: &Model, direction: RestDirection, up: bool) -> Option<()> {
             let across: [Expr; 3] = rotor.cross(&axis).into();
             across
         }));
-        (torque, model.system.criterion(&phase).first().copied())
+        (torque, phase.motion_as_written(), model.system.criterion(&phase).first().copied())
     })
     .ok()?;
     let along = along?;
@@ -82,7 +82,8 @@ fn excludes(model: &Model, direction: RestDirection, up: bool) -> Option<()> {
     if !matches!(outcomes.as_slice(), [GroupOutcome::Zero(_)]) {
         return None;
     }
-    let outputs: Vec<Expr> = torque.into_iter().chain([along]).collect();
+    // A potential may have no slope at the rest.
+    let outputs: Vec<Expr> = torque.into_iter().chain(written).chain([along]).collect();
     let tape = Tape::new(&graph, &outputs);
     let mut evaluator = Evaluator::new(&tape, Ball::<1>);
     let numbers = DrawSource::new(&draws);
@@ -91,8 +92,8 @@ fn excludes(model: &Model, direction: RestDirection, up: bool) -> Option<()> {
         let inputs: Vec<_> = values.into_iter().map(|value| Ball::<1>.values(&[value])).collect();
         evaluator.run(&inputs);
         let balls: Vec<_> = evaluator.outputs().collect();
-        let (along, torque) = balls.split_last()?;
-        let exists = torque.iter().all(|ball| ball.is_defined(0));
+        let (along, motion) = balls.split_last()?;
+        let exists = motion.iter().all(|ball| ball.is_defined(0));
         (exists && along.is_defined(0) && along.excludes_zero(0)).then_some(())
     })
 }

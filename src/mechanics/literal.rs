@@ -1,6 +1,7 @@
 //! Recorded values without which formulas, as written, have none.
 
 use super::phase::Phase;
+use super::system::System;
 use crate::formula::{Exponents, Formula, Symbol, Value};
 use crate::graph::{Expr, literally, logarithms_times_zero};
 use crate::scalar::Scalar;
@@ -37,6 +38,16 @@ impl Phase<'_, Expr> {
         };
         let values = formulas.into_iter().flat_map(written);
         values.filter(|value| !value.is_always_defined()).collect()
+    }
+
+    /// Records the equations of motion that are derived from energies so that they are defined exactly
+    /// where all slopes in them are: that of √x² is 0·(1/0) at 0. Rates that a file gives are formulas.
+    pub fn motion_as_written(&self) -> Vec<Expr> {
+        if matches!(self.model().system, System::Field(_) | System::Map(_)) {
+            return Vec::new();
+        }
+        let rates = literally(|| self.with(&[], &self.state()).field().to_vec());
+        rates.into_iter().filter(|rate| !rate.is_always_defined()).collect()
     }
 
     /// Evaluates as written what a formula has no value without, though its value need not show it: the

@@ -36,6 +36,7 @@ mod lone_states;
 mod many_variables;
 mod masses;
 mod merge;
+mod missing_slopes;
 mod mutated;
 mod nesting;
 mod newton_euler;
