@@ -250,7 +250,7 @@ impl Scene {
 #[test]
 fn no_proved_relation_is_left_by_a_motion() {
     let (mut proved, mut left) = (0, 0);
-    let draws = u64::from(crate::random::draws(300));
+    let draws = u64::from(crate::random::draws(150));
     for draw in 0..draws {
         let stream = &mut Stream::new(41, draw);
         let scene = Scene::draw(stream);

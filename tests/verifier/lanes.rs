@@ -172,7 +172,7 @@ fn assert_contained(lanes: &Lanes, index: usize) -> Result<bool, TestCaseError> 
 fn check(inputs: impl Strategy<Value = BigRational>, steps: std::ops::Range<usize>) {
     let strategy = (prop::collection::vec(inputs, INPUTS), prop::collection::vec(step(), steps));
     let (all, compared) = (Cell::new(0u32), Cell::new(0u32));
-    let outcome = TestRunner::new(config(2000)).run(&strategy, |(values, steps)| {
+    let outcome = TestRunner::new(config(1000)).run(&strategy, |(values, steps)| {
         let inputs: Vec<Rational> = values.iter().map(rational).collect();
         let lanes = lanes(&inputs, |inputs| run(inputs, &steps));
         for index in INPUTS..lanes.ball.len() {
@@ -198,7 +198,7 @@ fn balls_hold_the_exact_values_of_long_computations() {
 }
 
 proptest! {
-    #![proptest_config(config(5000))]
+    #![proptest_config(config(2000))]
 
     #[test]
     fn a_number_lies_in_its_own_ball(value in edge()) {

@@ -7,7 +7,7 @@ use liouville::verdict::{Options, Verdict, judge};
 
 pub const NAMES: [&str; 4] = ["x", "y", "z", "w"];
 /// Usual number of levels.
-const LEVELS: u32 = 60;
+const LEVELS: u32 = 30;
 
 /// A sum of monomials with small coefficients.
 #[derive(Clone)]

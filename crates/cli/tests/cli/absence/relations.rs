@@ -1,6 +1,6 @@
 //! Claims of absence of Darboux polynomials.
 
-use super::{Dice, Polynomial, Verdict, field, only};
+use super::{Dice, Polynomial, Verdict, field, only, plants};
 
 pub const THIRD: &str = "[[claim]]\nno-invariant-relation = { degree = 3 }\n";
 
@@ -22,7 +22,7 @@ fn planted(f: &Polynomial, dice: &mut Dice) -> ([String; 3], String) {
 fn planted_relations_are_never_excluded() {
     let mut dice = Dice(7);
     let (mut refuted, mut proved, mut others) = (0, 0, 0);
-    for plant in 0..6 {
+    for plant in 0..plants(3) {
         let degree = 1 + (plant % 2) as u32;
         let f = Polynomial::random(&mut dice, degree).plus(&Polynomial(vec![(1, [0, 0, 0])]));
         let (rates, cofactor) = planted(&f, &mut dice);
