@@ -4,19 +4,29 @@ use num_traits::Zero;
 
 use super::{Condition, Need};
 use crate::formula::Formula;
-use crate::graph::{Expr, edges, has_roots};
+use crate::graph::{Expr, edges, has_moduli};
 use crate::mechanics::{Model, Phase};
 
-/// Records the equations of motion as written at a point: where they have no value the point is not in
-/// phase space.
+/// Records the equations of motion as written at the image of a state: where they have no value the image
+/// is not in phase space.
 pub(super) fn system_at(at: &Phase<'_, Expr>) -> Vec<Expr> {
-    let formulas = at.model().equations_of_motion().into_iter();
-    let mut values: Vec<Expr> = formulas.flat_map(|formula| written_at(at, formula)).collect();
-    // √x² has a value at 0, and no slope.
-    if has_roots(&values) {
+    let mut values = formulas_at(at);
+    if has_moduli(&values) {
         values.extend(at.motion_as_written());
     }
     values
+}
+
+/// Records the same at a point that a claim names, where √x² may have a value and no slope.
+pub(super) fn system_at_point(at: &Phase<'_, Expr>) -> Vec<Expr> {
+    let mut values = formulas_at(at);
+    values.extend(at.motion_as_written());
+    values
+}
+
+fn formulas_at(at: &Phase<'_, Expr>) -> Vec<Expr> {
+    let formulas = at.model().equations_of_motion().into_iter();
+    formulas.flat_map(|formula| written_at(at, formula)).collect()
 }
 
 /// Records a formula as written at a point, with what its value does not show.

@@ -204,6 +204,7 @@ impl Judging<'_> {
         self.check_slopes(sampler)?;
         sampler.check_coverage(self.case)?;
         let mut warnings = physics::warnings(&physical);
+        warnings.extend(self.states_without_motion(&states));
         warnings.extend(self.check_quadratures()?);
         if sampler.is_numerical() {
             warnings.push(
@@ -216,6 +217,19 @@ impl Judging<'_> {
         warnings.extend(self.missed_part(sampler)?);
         warnings.extend(self.jump_of_level(sampler));
         Ok(warnings)
+    }
+
+    /// Returns a warning on drawn states at which the equations of motion have no value, as a mass is 0 there.
+    fn states_without_motion(&self, states: &[Balls<TAPE_LANES>]) -> Option<String> {
+        let written = self.common.motion.get(self.case.model.undetermined.len()..)?;
+        let values = self.run(written).at(&Ball::<TAPE_LANES>, states);
+        let is_state = |lane: &usize| states.iter().all(|block| block.is_defined(*lane));
+        let moves = |lane: &usize| (0..written.len()).all(|k| values.output(k).is_defined(*lane));
+        let all = (0..TAPE_LANES).filter(is_state).count();
+        let count = (0..TAPE_LANES).filter(is_state).filter(|lane| !moves(lane)).count();
+        (count > 0).then(|| {
+            format!("at {count} of {all} states the equations of motion have no value: these do not count")
+        })
     }
 
     /// Returns the error that states do not fulfil an equation of the level.

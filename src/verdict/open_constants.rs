@@ -9,8 +9,9 @@ use num_traits::Zero;
 
 use super::judging::Judging;
 use super::recorded::RecordedClaim;
-use super::sampler::TAPE_LANES;
+use super::sampler::{Sampler, TAPE_LANES};
 use crate::graph::{Expr, Fault, Graph, Step, record};
+use crate::mechanics::combinations;
 use crate::number::ball::Ball;
 use crate::number::rational::Rational;
 use crate::number::{BinaryOperation, UnaryFunction};
@@ -33,7 +34,7 @@ impl Judging<'_> {
             for constant in self.constants_in(*residual) {
                 is_multiple = is_multiple
                     && (self.is_multiple(*residual, constant)?
-                        || self.is_independent_of(*residual, constant)?);
+                        || self.is_independent_of(*residual, constant, &sampler)?);
             }
             // Without an ∫ it is as it is, and it has to be one that does not vanish.
             let values = self.run(&[*residual]).at(&Ball::<TAPE_LANES>, &states);
@@ -56,8 +57,13 @@ impl Judging<'_> {
         self.graph.inputs_of(value).into_iter().filter(move |input| *input >= inputs)
     }
 
-    /// Whether it is proved that a residual is the same for all values of an ∫, whatever the state.
-    fn is_independent_of(&self, residual: Expr, constant: usize) -> Result<bool, Fault> {
+    /// Whether it is proved that a residual is the same for all values of an ∫.
+    fn is_independent_of(
+        &self,
+        residual: Expr,
+        constant: usize,
+        sampler: &Sampler,
+    ) -> Result<bool, Fault> {
         let count = self.graph.inputs();
         let reached = self.graph.reached([residual]);
         let (graph, change) = record(count + 1, |inputs| {
@@ -67,10 +73,19 @@ impl Judging<'_> {
                 |inputs: &[Expr]| self.graph.repeated(&reached, inputs)[self.graph.place(residual)];
             Some(of(&shifted)? - of(&inputs[..count])?)
         })?;
-        let Some(change) = change else { return Ok(false) };
-        let prover = Prover { sources: &[], extents: &[], seed: self.options.seed };
-        let outcomes = prover.prove(&graph, &[Group::of(vec![change])])?;
-        Ok(outcomes.iter().all(GroupOutcome::is_zero))
+        let (Some(change), Some(choices)) = (change, combinations(sampler.recipes())) else {
+            return Ok(false);
+        };
+        let (sources, extents) = (sampler.sources(), sampler.extents());
+        let prover = Prover { sources: &sources, extents: &extents, seed: self.options.seed };
+        for fixed in choices {
+            let (graph, groups) =
+                sampler.compose_groups(&graph, &[Group::of(vec![change])], &fixed)?;
+            if !prover.prove(&graph, &groups)?.iter().all(GroupOutcome::is_zero) {
+                return Ok(false);
+            }
+        }
+        Ok(true)
     }
 
     /// Whether a residual is seen to have the form c(x) e^(ks) in the value s of an ∫.

@@ -108,11 +108,6 @@ pub fn edges(values: &[Expr]) -> Vec<Expr> {
     literally(|| arguments.into_iter().map(|a| a.apply(UnaryFunction::Recip)).collect())
 }
 
-/// Whether some values contain a root or a modulus, of which slopes may have no value where it has one.
-pub fn has_roots(values: &[Expr]) -> bool {
-    has_step(values, |_, step| is_root(&step) || matches!(step, Step::Unary(UnaryFunction::Abs, _)))
-}
-
 /// Whether some values contain a modulus, or the root of a square: what is made of them may be 0 on an open
 /// set, as x + |x|.
 pub fn has_moduli(values: &[Expr]) -> bool {
@@ -121,25 +116,21 @@ pub fn has_moduli(values: &[Expr]) -> bool {
         Step::Power(_, exponent) => exponent.to_integer().is_some_and(|power| power % 2 == 0),
         _ => false,
     };
-    has_step(values, |graph, step| match step {
-        Step::Unary(UnaryFunction::Abs, _) => true,
-        Step::Unary(UnaryFunction::Sqrt, a) | Step::Power(a, _) => {
-            is_root(&step) && is_square(graph, a)
-        }
-        _ => false,
+    with_graph(|graph| {
+        let graph = &*graph;
+        graph.has_step(values, |step| match step {
+            Step::Unary(UnaryFunction::Abs, _) => true,
+            Step::Unary(UnaryFunction::Sqrt, a) | Step::Power(a, _) => {
+                is_root(&step) && is_square(graph, a)
+            }
+            _ => false,
+        })
     })
 }
 
 fn is_root(step: &Step<'_>) -> bool {
     let is_power = matches!(step, Step::Unary(UnaryFunction::Sqrt, _) | Step::Power(..));
     is_power && step.need().is_some_and(|(_, need)| need.not_negative)
-}
-
-fn has_step(values: &[Expr], is_such: impl Fn(&Graph, Step<'_>) -> bool) -> bool {
-    with_graph(|graph| {
-        let graph = &*graph;
-        graph.has_step(values, |step| is_such(graph, step))
-    })
 }
 
 /// Returns the logarithms of which some values contain the product with 0.

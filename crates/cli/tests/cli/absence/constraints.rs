@@ -120,7 +120,10 @@ fn planted_integrals_of_constrained_motion_are_never_excluded() {
         proved += usize::from(found.verdict == Verdict::Proved);
     }
     assert!(refuted * 5 >= all * 2, "{refuted} of {all} plants are exhibited");
-    assert!(proved * 5 >= all * 3, "{proved} of {all} systems without the integral are proved to have none");
+    assert!(
+        proved * 5 >= all * 3,
+        "{proved} of {all} systems without the integral are proved to have none"
+    );
 }
 
 #[test]
