@@ -42,6 +42,7 @@ pub use closed::through::{ComputedClosedOrbit, MeasuredNumber};
 pub use error::FlowError;
 pub use halt::{stop_request, stoppable};
 pub use motion::columns::Columns;
+pub use motion::conserved::{Conserved, Fixed};
 pub use motion::iterates::{IterateError, MapOrbit, MapSampling, SampledMapOrbit, iterates};
 pub use motion::kept::check_level;
 pub use motion::lexicon::{FormulaMistake, Lexicon};

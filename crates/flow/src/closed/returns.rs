@@ -3,6 +3,7 @@
 use crate::closed::cycle::{Cycle, Pins, cycle};
 use crate::closed::periodic::{ComputedPeriodicPoint, SectionMap};
 use crate::error::FlowError;
+use crate::motion::conserved::Conserved;
 use crate::motion::kept::keeps_energy;
 use crate::motion::start::{LevelFunctions, Start, two_sided};
 use crate::section::andoyer::section_functions;
@@ -29,33 +30,48 @@ impl SectionMap<'_> {
             let [section, _] = section_functions(phase, self.g0());
             vec![energy.unwrap_or(Dual::from_re(Scalar::undefined())), section]
         })?;
-        let pins = Pins { functions, has_energy: true, has_surface: true };
+        let pins = Pins { functions, kept: vec![Conserved::Energy], has_surface: true };
         let found = cycle(model, &start, point.time, &pins)?;
         Ok((point, found))
     }
 }
 
-/// Finds the closed orbit of a case near a state, at its energy, with a period near `time`. With a
-/// surface the state that is found lies on it.
+/// Finds the closed orbit of a case near a state, at its energy and with its values of the functions
+/// that are `held`, with a period near `time`. With a surface the state that is found lies on it. If the
+/// orbit is one of a family, the values of all proved integrals are held.
 pub fn closed_orbit(
     case: &Case,
     start: &Start,
     time: f64,
     surface: Option<&CrossingSurface>,
+    held: &[Conserved],
 ) -> Result<Cycle, FlowError> {
     two_sided(case)?;
     if clock(&case.model).is_some() {
         return Err(FlowError::NeverCloses);
     }
     let model = surface.map_or(&case.model, CrossingSurface::model);
-    let has_energy = keeps_energy(case, model, start, time)?;
-    let functions = LevelFunctions::with(model, &start.parameters, &|phase| {
-        let energy = model.system.energy(phase).filter(|_| has_energy);
-        let surface = surface.map(|surface| surface.value(phase));
-        energy.into_iter().chain(surface).collect()
-    })?;
-    let pins = Pins { functions, has_energy, has_surface: surface.is_some() };
-    cycle(model, start, time, &pins)
+    let energy = keeps_energy(case, model, start, time)?.then_some(Conserved::Energy);
+    let integrals = held.iter().filter(|own| !matches!(own, Conserved::Energy)).cloned();
+    let mut kept: Vec<Conserved> = energy.into_iter().chain(integrals).collect();
+    let found = |kept: Vec<Conserved>| {
+        let functions = LevelFunctions::with(model, &start.parameters, &|phase| {
+            let values = kept.iter().filter_map(|own| own.value(phase));
+            values.chain(surface.map(|surface| surface.value(phase))).collect()
+        })?;
+        cycle(model, start, time, &Pins { functions, kept, has_surface: surface.is_some() })
+    };
+    match found(kept.clone()) {
+        Err(FlowError::Degenerate(period)) => {
+            let further = Conserved::further(case, model, start, &kept)?;
+            if further.is_empty() {
+                return Err(FlowError::Degenerate(period));
+            }
+            kept.extend(further);
+            found(kept)
+        }
+        found => found,
+    }
 }
 
 /// Follows a motion to a surface, and on until it has crossed it n times more. Returns the state at

@@ -159,7 +159,7 @@ impl<T: SeriesNumber<One = T>> Walk<'_, T> {
             self.free.check(0)?;
             let piece = self.free.piece(0);
             let polynomial = piece.output(0);
-            let at = |after: T| self.now + piece.begin() + after.pair();
+            let at = |after: T| self.now + piece.time(after);
             let doubt = || self.phases.free.rounding::<T>(0, &self.free.pairs(0), 0.0);
             // What has come below 0 without an event, as from a touch, is in contact.
             let limit = ROUNDINGS * T::EPSILON * size(&polynomial, piece.length());
@@ -226,8 +226,7 @@ impl<T: SeriesNumber<One = T>> Walk<'_, T> {
                     continue;
                 }
                 watcher.piece(self.now + piece.begin(), &piece, after);
-                (self.now, self.state) =
-                    (self.now + piece.begin() + after.pair(), piece.state(after));
+                (self.now, self.state) = (self.now + piece.time(after), piece.state(after));
                 let (time, state) = (self.now, self.state.clone());
                 self.events.push(ContactEvent { kind: Contact::Leaves, time, state });
                 self.steps += self.contact.steps(0) + 1;

@@ -111,7 +111,7 @@ impl<'s> Samples<'s> {
         let forwards = length.leading() >= 0.0;
         loop {
             let next = self.next();
-            let after = next - begin;
+            let after = piece.after(next - begin);
             let beyond = after - length.pair();
             if beyond.hi != 0.0 && (beyond.hi > 0.0) == forwards {
                 break;

@@ -47,6 +47,10 @@ fn rounded(instruction: &RowInstruction, rows: &[Rounded], epsilon: f64) -> Roun
             let bound = Saturating::Fall.at(0.5 * rows[*x].value);
             own(function.at(rows[*x].value), bound, rows[*x])
         }
+        Rule::Near(x, reach) => {
+            let is_near = rows[*x].value.abs() < 0.5 * reach;
+            Rounded { value: f64::from(u8::from(is_near)), error: 0.0 }
+        }
         Rule::Sign(x) => Rounded { value: 1f64.copysign(rows[*x].value), error: 0.0 },
         Rule::Recip(x) => {
             let x = rows[*x];

@@ -40,10 +40,19 @@ impl<T: SeriesNumber> Stepper<T> {
     /// Values that decide whether a further function can vanish on the present pieces. Steps after
     /// which its series is not known as well as the state's become shorter.
     pub fn ends(&mut self, output: usize) -> Ends<T> {
-        for index in 0..T::LANES {
+        self.ends_of(output, |_| true)
+    }
+
+    /// The same in the lanes in which the function has a value that `counts`.
+    pub(crate) fn ends_of(&mut self, output: usize, counts: impl Fn(f64) -> bool) -> Ends<T> {
+        let counted = |stepper: &Self, index: usize| {
+            counts(stepper.series.output(output)[0].lane(index).leading())
+        };
+        for index in (0..T::LANES).filter(|index| counted(self, *index)).collect::<Vec<_>>() {
             let [still, moving, ..] = self.sizes.norms.map(|norm| norm.lane(index).leading());
             // Where the state is a polynomial of time its step has no other limit.
-            let most = if still > 0.0 { FAR * still / moving } else { FAR };
+            let most =
+                if still > 0.0 { FAR * still / moving } else { FAR / self.lanes[index].unit };
             let step = &mut self.lanes[index].step;
             if step.leading().abs() > most {
                 *step = T::One::float(most.copysign(step.leading()));
@@ -55,7 +64,11 @@ impl<T: SeriesNumber> Stepper<T> {
         for _ in 0..MOST_CUTS {
             with_widest_vectors(EndValues { stepper: self, output, ends: &mut ends });
             let mut is_known = true;
-            for (index, lane) in self.lanes.iter_mut().enumerate() {
+            for index in 0..T::LANES {
+                if !counted(self, index) {
+                    continue;
+                }
+                let lane = &mut self.lanes[index];
                 let share = ends.known_share(index, count, rate);
                 if share < 1.0 {
                     lane.step = lane.step * T::One::float(share);
@@ -63,7 +76,7 @@ impl<T: SeriesNumber> Stepper<T> {
                     is_known = false;
                 }
             }
-            if is_known && self.fits(output, &ends) {
+            if is_known && self.fits(output, &ends, &counted) {
                 break;
             }
         }
@@ -73,15 +86,21 @@ impl<T: SeriesNumber> Stepper<T> {
     /// Whether the polynomials of a further function are its values at the ends of the present pieces,
     /// and within them where it can be 0 up to rounding for a while. Halves steps where they are not:
     /// terms beyond the order do not show where a step begins.
-    fn fits(&mut self, output: usize, ends: &Ends<T>) -> bool {
-        let is_within = !self.series.has_pulses() || self.fits_at(output, ends, inside);
-        self.fits_at(output, ends, |_| 1.0) && is_within
+    fn fits(
+        &mut self,
+        output: usize,
+        ends: &Ends<T>,
+        counted: &impl Fn(&Self, usize) -> bool,
+    ) -> bool {
+        let has_pulses = self.series.has_pulses();
+        let is_within = !has_pulses || self.fits_at((output, ends), counted, inside);
+        self.fits_at((output, ends), counted, |_| 1.0) && is_within
     }
 
     fn fits_at(
         &mut self,
-        output: usize,
-        ends: &Ends<T>,
+        (output, ends): (usize, &Ends<T>),
+        counted: &impl Fn(&Self, usize) -> bool,
         share: impl Fn(&Lane<T::One>) -> f64,
     ) -> bool {
         self.sample(share);
@@ -91,7 +110,8 @@ impl<T: SeriesNumber> Stepper<T> {
         for index in 0..T::LANES {
             let lane = &self.lanes[index];
             let is_whole = lane.edge.and_then(|(edge, _)| edge.ends()).is_none();
-            if !is_whole || !lane.moves() || !self.is_regular(index) {
+            let is_judged = lane.moves() && self.is_regular(index) && counted(self, index);
+            if !is_whole || !is_judged {
                 continue;
             }
             let after = self.sampled_time(index);

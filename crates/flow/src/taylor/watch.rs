@@ -30,6 +30,9 @@ pub(crate) fn written(phase: &Phase<'_, Expr>) -> Written {
     all.filter(|(_, values)| !values.is_empty()).collect()
 }
 
+/// Size of an argument from which on it may overflow before it comes to 0.
+const LARGE: f64 = 1e200;
+
 /// Part of its largest size below which a divisor may be 0 up to rounding.
 const LOW: f64 = 1e-6;
 
@@ -273,12 +276,16 @@ impl<T: SeriesNumber> Stepper<T> {
         let count = presence.watched.len();
         let first = self.series.outputs() - count;
         for index in 0..count {
-            self.ends(first + index);
+            self.ends_of(first + index, |argument| argument.abs() < LARGE);
         }
         for (index, watched) in presence.watched.iter().enumerate() {
             for place in 0..T::LANES {
                 let argument = self.series.output(first + index).iter();
                 let argument: Vec<T::One> = argument.map(|x| x.lane(place)).collect();
+                let value = argument[0].leading();
+                if value.abs() >= LARGE && watched.domain.contains(value) {
+                    continue;
+                }
                 let lane = &mut self.lanes[place];
                 if let Some(after) = watched.domain.left_after(&argument, lane.step) {
                     lane.step = after;

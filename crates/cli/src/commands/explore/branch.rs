@@ -8,7 +8,7 @@ use clap::Args;
 use liouville::case::{Angle, Case};
 use liouville::number::rational::Rational;
 use liouville_flow::{
-    Branch, BranchPoint, BranchRequest, BranchSection, Columns, Coordinate, CrossingSurface,
+    Branch, BranchPoint, BranchRequest, BranchSection, Columns, Coordinate, CrossingSurface, Fixed,
     FlowError, Lexicon, branch, declared_range, number_with_pi, stoppable,
 };
 
@@ -28,7 +28,8 @@ use liouville_search::Meter;
 pub struct ContinueArgs {
     #[command(flatten)]
     pub search: OrbitSearch,
-    /// Quantity that varies: a parameter (a_g), a component of one (c3, I12), or the energy
+    /// Quantity that varies: a parameter (a_g), a component of one (c3, I12), the energy, or an
+    /// integral that the case claims and that is proved
     #[arg(long, value_name = "NAME")]
     pub parameter: String,
     /// Lower end of its range; by default that of the range in the case
@@ -196,12 +197,16 @@ impl ContinueArgs {
             return Err("error: a branch has one start\nhelp: give --start once".to_string());
         };
         let g0: Angle;
-        let mut energy = search.plane.energy.clone();
+        let mut fixed = Vec::new();
         let section = match surface {
-            Some(surface) => BranchSection::Surface(surface),
+            Some(surface) => {
+                fixed = search.plane.fixed(case)?;
+                BranchSection::Surface(surface)
+            }
             None if liouville_flow::has_andoyer_section(&case.model) => {
                 let (angle, own) = search.plane.of(case)?;
-                (g0, energy) = (angle, Some(own));
+                fixed.push(Fixed::energy(own));
+                g0 = angle;
                 BranchSection::Andoyer(&g0)
             }
             None => {
@@ -219,7 +224,8 @@ impl ContinueArgs {
             columns,
             varied,
             range: range.clone(),
-            energy,
+            fixed,
+            integrals: orbit.cycle.integrals,
             time: orbit.cycle.period.value,
             start: orbit.cycle.start,
             count: self.count as usize,

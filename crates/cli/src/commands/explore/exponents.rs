@@ -130,7 +130,11 @@ impl ExponentsJob {
     fn start(&self, given: Option<&GivenStart>) -> Result<Result<Start, FlowError>, String> {
         let Self { options, opened: Opened { case, .. }, .. } = self;
         let seed = options.subject.seed;
-        let launches = Launches { case, energy: None, pad: None, seed, index: 0 };
+        let fixed = match given {
+            Some(GivenStart::Values(_)) => Vec::new(),
+            _ => options.plane.fixed(case)?,
+        };
+        let launches = Launches { case, fixed: &fixed, pad: None, seed, index: 0 };
         let values = match given {
             None => return Ok(launches.start(&Begin::Drawn(0))),
             Some(GivenStart::State(state)) => {

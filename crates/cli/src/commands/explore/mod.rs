@@ -7,6 +7,7 @@ pub(super) mod branch;
 pub(super) mod chart;
 mod diagram;
 pub(super) mod exponents;
+mod fixing;
 mod growth;
 pub(super) mod ink;
 mod iterates;

@@ -237,7 +237,7 @@ fn columns(case: &Case, options: &OrbitArgs) -> Result<Columns, String> {
 pub fn starts(case: &Case, options: &OrbitArgs) -> Result<Named, String> {
     let subject = &options.subject;
     let launches =
-        Launches { case, energy: None, pad: None, seed: subject.seed, index: options.index };
+        Launches { case, fixed: &[], pad: None, seed: subject.seed, index: options.index };
     let one = |begin: &Begin| launches.start(begin);
     if let Some(text) = &options.state {
         let state = verdict::read_state(case, text).map_err(|error| wrong_state(&error))?;
@@ -249,7 +249,12 @@ pub fn starts(case: &Case, options: &OrbitArgs) -> Result<Named, String> {
             1 => "drawn".to_string(),
             _ => format!("drawn, {index}"),
         };
-        let all = (0..options.orbits as u64).map(|k| options.index + k);
+        let Some(end) = options.index.checked_add(options.orbits as u64) else {
+            return Err("error: --index: the last state has no number\n\
+                        help: give a smaller --index, or fewer --orbits"
+                .to_string());
+        };
+        let all = options.index..end;
         return Ok(all.map(|index| (name(index), one(&Begin::Drawn(index)))).collect());
     }
     let start = |(name, given): (String, GivenStart)| match given {

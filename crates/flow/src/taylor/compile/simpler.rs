@@ -7,8 +7,8 @@ use crate::taylor::program::Rule;
 use crate::taylor::quotients::{Factor, Simpler, modulus_at};
 use crate::taylor::saturating::Saturating;
 use liouville::graph::{Graph, Step};
-use liouville::number::UnaryFunction;
 use liouville::number::rational::Rational;
+use liouville::number::{BinaryOperation, UnaryFunction};
 
 impl Compiler {
     /// Form of |x| = s x, and of 1/|x| = s/x.
@@ -31,6 +31,41 @@ impl Compiler {
             },
             _ => None,
         })
+    }
+
+    /// Form of x + |y| or x − |y| where terms of x ± y cancel, as in max(a, b) = (a + b + |a − b|)/2: it
+    /// is (x + y) where y > 0, and (x − y) elsewhere, so that what cancels leaves no rounding.
+    pub(super) fn extreme(&mut self, graph: &Graph, step: Step<'_>) -> Option<BilinearForm> {
+        let (x, modulus, sign) = match step {
+            Step::Binary(BinaryOperation::Add, a, b) if modulus_at(graph, b).is_some() => (a, b, 1),
+            Step::Binary(BinaryOperation::Add, a, b) => (b, a, 1),
+            Step::Binary(BinaryOperation::Sub, a, b) => (a, b, -1),
+            _ => return None,
+        };
+        let y = modulus_at(graph, modulus)?;
+        let (own, other) = (self.forms[x].clone()?, self.forms[y].clone()?);
+        let beside = |sign: i64| own.clone().plus(other.clone().times(&Rational::from(sign)));
+        let sides = [beside(sign), beside(-sign)];
+        if sides.iter().any(|side| side.len() >= own.len() + other.len()) {
+            return None;
+        }
+        let turn = self.sign(y);
+        let half = Rational::new(1, 2);
+        let mut found = BilinearForm::of_constant(&Rational::from(0));
+        for (side, weight) in sides.into_iter().zip([1, -1]) {
+            let is_on = BilinearForm::of_row(&half * &Rational::from(weight), turn);
+            let is_on = BilinearForm::of_constant(&half).plus(is_on);
+            let is_on = self.emit(Rule::Sum, is_on);
+            found = found.plus(match (side.as_constant(), side.as_row()) {
+                (Some(constant), _) => BilinearForm::of_row(constant, is_on),
+                (_, Some((factor, row))) => BilinearForm::of_product(factor.clone(), row, is_on),
+                _ => {
+                    let row = self.emit(Rule::Sum, side);
+                    Self::product(row, is_on)
+                }
+            });
+        }
+        Some(found)
     }
 
     /// Row of the sign of a step.
@@ -62,6 +97,9 @@ impl Compiler {
                 }
             });
         }
+        for own in &simpler.limits {
+            rows.push(self.limit(own));
+        }
         for (place, power) in &simpler.rest.factors {
             let (factor, row) = match power {
                 1.. => self.factor(*place),
@@ -72,16 +110,21 @@ impl Compiler {
                 rows.push(row);
             }
         }
+        Ok(self.product_of(coefficient, rows))
+    }
+
+    /// Form of a product of rows.
+    pub(super) fn product_of(&mut self, coefficient: Rational, mut rows: Vec<Row>) -> BilinearForm {
         while rows.len() > 2 {
             let (a, b) = (rows.remove(0), rows.remove(0));
             let both = self.emit(Rule::Sum, Self::product(a, b));
             rows.insert(0, both);
         }
-        Ok(match rows[..] {
+        match rows[..] {
             [a, b] => BilinearForm::of_product(coefficient, a, b),
             [a] => BilinearForm::of_row(coefficient, a),
             _ => BilinearForm::of_constant(&coefficient),
-        })
+        }
     }
 
     /// Row of a function that tends to constants.
