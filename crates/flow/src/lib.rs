@@ -47,6 +47,7 @@ pub use motion::iterates::{IterateError, MapOrbit, MapSampling, SampledMapOrbit,
 pub use motion::kept::check_level;
 pub use motion::lexicon::{FormulaMistake, Lexicon};
 pub use motion::lyapunov::{Alignment, Character, Estimate, Exponents};
+pub use motion::map_exponents::{MapExponents, map_exponents};
 pub use motion::one_sided::{Contact, ContactEvent};
 pub use motion::orbit::{Followed, Orbit, Precision, QuantityRole, orbit, value_at};
 pub use motion::recorded::Loose;

@@ -310,9 +310,14 @@ impl Record {
 
     /// Ends a block, at which ∫ div v is `volume`.
     pub fn finish_block(&mut self, volume: f64) {
+        self.finish_block_of(self.block(), volume);
+    }
+
+    /// The same with a block of this length.
+    pub fn finish_block_of(&mut self, length: f64, volume: f64) {
         let (expanded, before) = self.at_last_end;
-        self.growth.push((self.expanded - expanded) / self.block().abs());
-        self.volume.push((volume - before) / self.block());
+        self.growth.push((self.expanded - expanded) / length.abs());
+        self.volume.push((volume - before) / length);
         self.at_last_end = (self.expanded, volume);
     }
 

@@ -74,7 +74,10 @@ impl TaylorProgram {
                     Some(simpler) => compiler.simpler(simpler)?,
                     None => match compiler.modulus(graph, step)? {
                         Some(form) => form,
-                        None => match compiler.extreme(graph, step) {
+                        None => match compiler
+                            .extreme(graph, step)
+                            .or_else(|| constants.and_then(|_| compiler.difference(graph, place)))
+                        {
                             Some(form) => form,
                             None => compiler.form_of(step, dimension)?,
                         },

@@ -254,7 +254,8 @@ impl Needed {
                         Step::Unary(UnaryFunction::Recip, a) => modulus_at(graph, a),
                         _ => None,
                     };
-                    match modulus {
+                    let sine = hyperbolic(graph, place).filter(|(is_sine, _)| *is_sine);
+                    match modulus.or(sine.map(|(_, [u, _])| u)) {
                         Some(argument) => places[argument] = true,
                         None => own.arguments().for_each(|argument| places[argument] = true),
                     }

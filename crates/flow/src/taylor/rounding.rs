@@ -44,7 +44,10 @@ fn rounded(instruction: &RowInstruction, rows: &[Rounded], epsilon: f64) -> Roun
         Rule::Sum => sum(instruction, rows, epsilon),
         Rule::Theta(_) => Rounded::default(),
         Rule::Saturating { function, x, .. } => {
-            let bound = Saturating::Fall.at(0.5 * rows[*x].value);
+            let bound = match function {
+                Saturating::Sinh | Saturating::Cosh => Saturating::Cosh.at(rows[*x].value),
+                _ => Saturating::Fall.at(0.5 * rows[*x].value),
+            };
             own(function.at(rows[*x].value), bound, rows[*x])
         }
         Rule::Near(x, reach) => {

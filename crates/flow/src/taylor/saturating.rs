@@ -1,13 +1,16 @@
-//! Functions that tend to constants: tanh u, its slope 1/cosh² u, and 1/(1 + eᵘ).
+//! Functions that tend to constants: tanh u, its slope 1/cosh² u, and 1/(1 + eᵘ); and sinh u, which has
+//! all digits near 0.
 //!
-//! Formulas have them as quotients of exponential functions, which are too large for f64 from u = 355
-//! or 710 on, where the quotients are constant. Programs have rules of their own for them.
+//! Formulas have them as quotients and differences of exponential functions, which are too large for f64
+//! from u = 355 or 710 on, where the quotients are constant, or cancel near 0. Programs have rules of
+//! their own for them.
 
 use crate::taylor::number::SeriesNumber;
 use liouville::graph::{Graph, Step};
+use liouville::number::rational::Rational;
 use liouville::number::{BinaryOperation, UnaryFunction};
 
-/// A function that tends to constants.
+/// A function that tends to constants, or a hyperbolic sine with its cosine.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Saturating {
     /// tanh u
@@ -18,7 +21,14 @@ pub(crate) enum Saturating {
     Bell,
     /// 1/(1 + eᵘ)
     Logistic,
+    /// sinh u
+    Sinh,
+    /// cosh u
+    Cosh,
 }
+
+/// Size of arguments below which series have more digits than exponential functions.
+const NEAR: f64 = 0.3;
 
 impl Saturating {
     /// Values of the function.
@@ -33,10 +43,24 @@ impl Saturating {
         match self {
             // The quotient has no digits near 0.
             Saturating::Tanh if One::EPSILON == f64::EPSILON => One::float(libm::tanh(u.leading())),
+            Saturating::Tanh if size.leading() < NEAR => {
+                let grown = small_growth(u + u);
+                grown * (One::float(2.0) + grown).recip()
+            }
             Saturating::Tanh => {
                 let t = falling(2.0);
                 let value = (One::ONE - t) * (One::ONE + t).recip();
                 if is_negative { -value } else { value }
+            }
+            Saturating::Sinh if size.leading() < NEAR => {
+                let grown = small_growth(u);
+                let half = One::float(0.5) * grown;
+                half + half * (One::ONE + grown).recip()
+            }
+            Saturating::Sinh | Saturating::Cosh => {
+                let [up, down] = [u, -u].map(|x| x.apply(UnaryFunction::Exp));
+                let down = if self == Saturating::Sinh { -down } else { down };
+                One::float(0.5) * (up + down)
             }
             Saturating::Fall => {
                 let t = falling(2.0);
@@ -58,19 +82,28 @@ impl Saturating {
     /// Factor of the slope in terms of the row that programs have for it.
     pub(crate) fn slope(self) -> f64 {
         match self {
-            Saturating::Tanh => 1.0,
+            Saturating::Tanh | Saturating::Sinh | Saturating::Cosh => 1.0,
             Saturating::Fall => -2.0,
             Saturating::Logistic | Saturating::Bell => -1.0,
         }
     }
 
-    /// Rate k at which what varies of the function falls, as e^(−k|u|).
+    /// Rate k at which what varies of the function falls, as e^(−k|u|); 0 where it grows.
     pub(crate) fn rate(self) -> f64 {
         match self {
             Saturating::Logistic | Saturating::Bell => 1.0,
             Saturating::Tanh | Saturating::Fall => 2.0,
+            Saturating::Sinh | Saturating::Cosh => 0.0,
         }
     }
+}
+
+/// eᵘ − 1 with all digits, |u| up to twice [`NEAR`].
+fn small_growth<One: SeriesNumber<One = One>>(u: One) -> One {
+    // The 32nd term is below the rounding of double-double.
+    (1..32)
+        .rev()
+        .fold(One::ZERO, |sum, n| u * (One::ONE + sum) * One::rational(&Rational::new(1, n)))
 }
 
 /// Exponents of a sum or a difference eᵘ ± e⁻ᵘ at a place, with whether it is a difference.
@@ -135,6 +168,22 @@ mod tests {
             assert!((fall.at(u) + square - 1.0).abs() < 1e-15, "1/cosh² = 1 − tanh² at {u}");
             let pair = DoubleDouble::from_f64(u);
             assert!((tanh.at(pair).hi - tanh.at(u)).abs() < 1e-15, "tanh {u}");
+            for function in [tanh, Saturating::Sinh] {
+                let (small, whole) = (DoubleDouble::from_f64(1e-20 * u), DoubleDouble::from_f64(u));
+                assert!(
+                    (function.at(small).hi / small.hi - 1.0).abs() < 1e-15,
+                    "small {function:?}"
+                );
+                let twice = function.at(whole + whole);
+                let own = function.at(whole);
+                let square = DoubleDouble::from_f64(1.0) + own * own;
+                let doubled = match function {
+                    Saturating::Sinh => own * square.sqrt(),
+                    _ => own * square.recip(),
+                };
+                let gap = (twice - doubled - doubled).hi / twice.hi;
+                assert!(gap.abs() < 1e-30, "{function:?} at {u} and twice that: {gap:e}");
+            }
             let bell = Saturating::Bell.at(u);
             assert!((bell * bell / fall.at(u) - 1.0).abs() < 1e-14, "1/cosh {u}");
             assert!((logistic.at(u) - 1.0 / (1.0 + u.exp())).abs() < 1e-15, "1/(1 + e^{u})");

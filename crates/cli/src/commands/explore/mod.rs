@@ -11,6 +11,7 @@ mod fixing;
 mod growth;
 pub(super) mod ink;
 mod iterates;
+mod map_exponents;
 pub(super) mod motion;
 mod orbit;
 pub(super) mod output;

@@ -62,6 +62,15 @@ impl MotionArgs {
         self.moving(read_text(&self.case, text, &self.settings)?)
     }
 
+    /// Whether the case is a map.
+    pub fn reads_map(&self) -> Result<bool, String> {
+        let opened = match &self.text {
+            Some(text) => read_text(&self.case, text, &self.settings)?,
+            None => open_text(&self.case, &self.settings)?,
+        };
+        Ok(opened.case.model.system.is_map())
+    }
+
     /// Reads a case that may be a map.
     pub fn open_with_maps(&self) -> Result<Case, String> {
         let opened = match &self.text {

@@ -101,7 +101,7 @@ impl Digits {
 }
 
 /// Reads a number of iterates, also as 1e6.
-fn parse_iterates(text: &str) -> Result<u64, String> {
+pub fn parse_iterates(text: &str) -> Result<u64, String> {
     let whole = parse_number(text).ok().filter(|count| count.to_integer().is_some());
     let count = whole.map(|count| count.to_f64().0);
     let count = count.filter(|count| (1.0..=MOST_ITERATES).contains(count));

@@ -5,7 +5,7 @@ use crate::error::FlowError;
 use crate::taylor::form::{BilinearForm, Row};
 use crate::taylor::program::Rule;
 use crate::taylor::quotients::{Factor, Simpler, modulus_at};
-use crate::taylor::saturating::Saturating;
+use crate::taylor::saturating::{Saturating, hyperbolic};
 use liouville::graph::{Graph, Step};
 use liouville::number::rational::Rational;
 use liouville::number::{BinaryOperation, UnaryFunction};
@@ -66,6 +66,14 @@ impl Compiler {
             });
         }
         Some(found)
+    }
+
+    /// Form of eᵘ − e⁻ᵘ = 2 sinh u.
+    pub(super) fn difference(&mut self, graph: &Graph, place: usize) -> Option<BilinearForm> {
+        let Some((true, [u, _])) = hyperbolic(graph, place) else { return None };
+        let x = self.row(u);
+        let sine = self.saturating(Saturating::Sinh, x);
+        Some(BilinearForm::of_row(Rational::from(2), sine))
     }
 
     /// Row of the sign of a step.
@@ -158,6 +166,14 @@ impl Compiler {
             self.emit(Rule::Sum, Self::product(tanh, first));
             self.saturating.push((function, x, first));
             return first;
+        }
+        if matches!(function, Saturating::Sinh | Saturating::Cosh) {
+            let (sine, cosine) = (Saturating::Sinh, Saturating::Cosh);
+            let rule = |function, slope| Rule::Saturating { function, x, slope };
+            self.emit(rule(sine, second), Self::product(theta, second));
+            self.emit(rule(cosine, first), Self::product(theta, first));
+            self.saturating.extend([(sine, x, first), (cosine, x, second)]);
+            return if function == sine { first } else { second };
         }
         // y' = w u' and w' = −2 y w u'
         let (tanh, fall) = (Saturating::Tanh, Saturating::Fall);
