@@ -9,6 +9,8 @@ use crate::motion::start::{LevelFunctions, Start, two_sided};
 use crate::section::andoyer::section_functions;
 use crate::section::crossings::CrossingTask;
 use crate::section::surface::CrossingSurface;
+use crate::taylor::program::TaylorProgram;
+use crate::taylor::stepper::{Accuracy, Stepper};
 use liouville::case::{Case, Direction};
 use liouville::claim::clock;
 use liouville::number::double_double::DoubleDouble;
@@ -74,8 +76,11 @@ pub fn closed_orbit(
     }
 }
 
+/// Roundings within which a start lies on a surface.
+const ROUNDINGS: f64 = 64.0;
+
 /// Follows a motion to a surface, and on until it has crossed it n times more. Returns the state at
-/// the first crossing, and the time to the last.
+/// the first crossing, which may be the start, and the time to the last.
 pub fn crossing_time(
     start: &Start,
     surface: &CrossingSurface,
@@ -83,11 +88,12 @@ pub fn crossing_time(
     crossings: usize,
 ) -> Result<(Start, f64), FlowError> {
     let program = surface.program(&start.parameters)?;
+    let is_first = crosses(&program, start, direction);
     let task = CrossingTask {
         program: &program,
         starts: &[Ok(start.clone())],
         direction,
-        crossings: crossings + 1,
+        crossings: crossings + usize::from(!is_first),
         skip: 0,
         backwards: false,
         has_side: false,
@@ -95,6 +101,9 @@ pub fn crossing_time(
     let mut tracks =
         task.run(1, &|| |_: DoubleDouble, state: &[DoubleDouble]| state.to_vec(), &|_| ());
     let track = tracks.pop().ok_or(FlowError::NoStart)?;
+    if let (true, Some(last), None) = (is_first, track.crossings.last(), &track.problem) {
+        return Ok((start.clone(), last.time));
+    }
     let (first, last) = (track.crossings.first(), track.crossings.get(crossings));
     match (first, last, track.problem) {
         (Some(first), Some(last), None) => {
@@ -102,4 +111,20 @@ pub fn crossing_time(
         }
         (_, _, problem) => Err(problem.unwrap_or(FlowError::NoStart)),
     }
+}
+
+/// Whether a start lies on a surface, output 0 of the program, and crosses it in a direction.
+fn crosses(program: &TaylorProgram, start: &Start, direction: Direction) -> bool {
+    let mut stepper = Stepper::<f64>::new(program, Accuracy::FLOAT);
+    stepper.start_open(0, &start.state, false);
+    stepper.expand();
+    let function = stepper.piece(0).output(0);
+    let doubt = program.rounding::<f64>(0, &start.state, 0.0);
+    let is_on = function[0].abs() <= ROUNDINGS * doubt;
+    is_on
+        && match direction {
+            Direction::Both => function[1] != 0.0,
+            Direction::Up => function[1] > 0.0,
+            Direction::Down => function[1] < 0.0,
+        }
 }

@@ -76,7 +76,7 @@ impl TaylorProgram {
                         Some(form) => form,
                         None => match compiler
                             .extreme(graph, step)
-                            .or_else(|| constants.and_then(|_| compiler.difference(graph, place)))
+                            .or_else(|| constants.and_then(|_| compiler.area_or_sine(graph, place)))
                         {
                             Some(form) => form,
                             None => compiler.form_of(step, dimension)?,

@@ -5,7 +5,7 @@
 //! Quotients of both, as in slopes of |x|, are s alone, also where x is 0.
 
 use crate::taylor::removable::Removable;
-use crate::taylor::saturating::{Saturating, exponent, hyperbolic, logistic};
+use crate::taylor::saturating::{Saturating, area, exponent, hyperbolic, logistic};
 use liouville::graph::{Expr, Graph, Step};
 use liouville::number::rational::Rational;
 use liouville::number::{BinaryOperation, UnaryFunction};
@@ -255,7 +255,10 @@ impl Needed {
                         _ => None,
                     };
                     let sine = hyperbolic(graph, place).filter(|(is_sine, _)| *is_sine);
-                    match modulus.or(sine.map(|(_, [u, _])| u)) {
+                    match modulus
+                        .or(sine.map(|(_, [u, _])| u))
+                        .or(area(graph, place).map(|own| own.1))
+                    {
                         Some(argument) => places[argument] = true,
                         None => own.arguments().for_each(|argument| places[argument] = true),
                     }

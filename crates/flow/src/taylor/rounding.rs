@@ -46,6 +46,8 @@ fn rounded(instruction: &RowInstruction, rows: &[Rounded], epsilon: f64) -> Roun
         Rule::Saturating { function, x, .. } => {
             let bound = match function {
                 Saturating::Sinh | Saturating::Cosh => Saturating::Cosh.at(rows[*x].value),
+                Saturating::Asinh => 1.0,
+                Saturating::Atanh => (1.0 - rows[*x].value * rows[*x].value).recip(),
                 _ => Saturating::Fall.at(0.5 * rows[*x].value),
             };
             own(function.at(rows[*x].value), bound, rows[*x])

@@ -1,16 +1,16 @@
-//! Functions that tend to constants: tanh u, its slope 1/cosh² u, and 1/(1 + eᵘ); and sinh u, which has
-//! all digits near 0.
+//! Functions that tend to constants: tanh u, its slope 1/cosh² u, and 1/(1 + eᵘ); and sinh u,
+//! asinh u and atanh u, which have all digits near 0.
 //!
 //! Formulas have them as quotients and differences of exponential functions, which are too large for f64
-//! from u = 355 or 710 on, where the quotients are constant, or cancel near 0. Programs have rules of
-//! their own for them.
+//! from u = 355 or 710 on, where the quotients are constant, or cancel near 0, and as logarithms.
+//! Programs have rules of their own for them.
 
 use crate::taylor::number::SeriesNumber;
 use liouville::graph::{Graph, Step};
 use liouville::number::rational::Rational;
 use liouville::number::{BinaryOperation, UnaryFunction};
 
-/// A function that tends to constants, or a hyperbolic sine with its cosine.
+/// A function that tends to constants, or a hyperbolic function.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Saturating {
     /// tanh u
@@ -25,6 +25,10 @@ pub(crate) enum Saturating {
     Sinh,
     /// cosh u
     Cosh,
+    /// asinh u
+    Asinh,
+    /// atanh u
+    Atanh,
 }
 
 /// Size of arguments below which series have more digits than exponential functions.
@@ -62,6 +66,23 @@ impl Saturating {
                 let down = if self == Saturating::Sinh { -down } else { down };
                 One::float(0.5) * (up + down)
             }
+            Saturating::Asinh => {
+                let first = One::float(libm::asinh(u.leading()));
+                if One::EPSILON == f64::EPSILON || !first.leading().is_finite() {
+                    return first;
+                }
+                // A step of Newton's method doubles the digits.
+                let gap = Saturating::Sinh.at_one(first) - u;
+                first - gap * Saturating::Cosh.at_one(first).recip()
+            }
+            Saturating::Atanh => {
+                let first = One::float(libm::atanh(u.leading()));
+                if One::EPSILON == f64::EPSILON || !first.leading().is_finite() {
+                    return first;
+                }
+                let gap = Saturating::Tanh.at_one(first) - u;
+                first - gap * (One::ONE - u * u).recip()
+            }
             Saturating::Fall => {
                 let t = falling(2.0);
                 let root = (One::ONE + t).recip();
@@ -82,7 +103,11 @@ impl Saturating {
     /// Factor of the slope in terms of the row that programs have for it.
     pub(crate) fn slope(self) -> f64 {
         match self {
-            Saturating::Tanh | Saturating::Sinh | Saturating::Cosh => 1.0,
+            Saturating::Tanh
+            | Saturating::Sinh
+            | Saturating::Cosh
+            | Saturating::Asinh
+            | Saturating::Atanh => 1.0,
             Saturating::Fall => -2.0,
             Saturating::Logistic | Saturating::Bell => -1.0,
         }
@@ -93,7 +118,7 @@ impl Saturating {
         match self {
             Saturating::Logistic | Saturating::Bell => 1.0,
             Saturating::Tanh | Saturating::Fall => 2.0,
-            Saturating::Sinh | Saturating::Cosh => 0.0,
+            Saturating::Sinh | Saturating::Cosh | Saturating::Asinh | Saturating::Atanh => 0.0,
         }
     }
 }
@@ -116,6 +141,48 @@ pub(super) fn hyperbolic(graph: &Graph, place: usize) -> Option<(bool, [usize; 2
         _ => return None,
     };
     are_opposite(graph, exponents).then_some((is_difference, exponents))
+}
+
+/// Argument of asinh u = ln(u + √(u² + 1)) or atanh u = ln((1 + u)/(1 − u))/2 in the logarithm at a place.
+pub(super) fn area(graph: &Graph, place: usize) -> Option<(Saturating, usize)> {
+    let Step::Unary(UnaryFunction::Ln, a) = graph.step(place) else { return None };
+    let is_one =
+        |place: usize| matches!(graph.step(place), Step::Constant(value) if value.is_one());
+    let other = |place: usize, one: &dyn Fn(usize) -> bool| match graph.step(place) {
+        Step::Binary(BinaryOperation::Add, a, b) if one(b) => Some(a),
+        Step::Binary(BinaryOperation::Add, a, b) if one(a) => Some(b),
+        _ => None,
+    };
+    match graph.step(a) {
+        Step::Binary(BinaryOperation::Add, ..) => {
+            let is_root_of = |u: usize, root: usize| {
+                let Step::Unary(UnaryFunction::Sqrt, sum) = graph.step(root) else { return false };
+                let square = other(sum, &is_one).map(|square| graph.step(square));
+                match square {
+                    Some(Step::Binary(BinaryOperation::Mul, x, y)) => (x, y) == (u, u),
+                    Some(Step::Power(x, exponent)) => x == u && exponent.to_integer() == Some(2),
+                    _ => false,
+                }
+            };
+            let Step::Binary(_, x, y) = graph.step(a) else { return None };
+            let found = [(x, y), (y, x)].into_iter().find(|(u, root)| is_root_of(*u, *root));
+            found.map(|(u, _)| (Saturating::Asinh, u))
+        }
+        Step::Binary(BinaryOperation::Mul, x, y) => {
+            let of = |above: usize, inverse: usize| {
+                let Step::Unary(UnaryFunction::Recip, below) = graph.step(inverse) else {
+                    return None;
+                };
+                let u = other(above, &is_one)?;
+                let Step::Binary(BinaryOperation::Sub, one, v) = graph.step(below) else {
+                    return None;
+                };
+                (is_one(one) && u == v).then_some((Saturating::Atanh, u))
+            };
+            of(x, y).or_else(|| of(y, x))
+        }
+        _ => None,
+    }
 }
 
 /// Exponent of a sum 1 + eᵘ at a place.
@@ -168,6 +235,14 @@ mod tests {
             assert!((fall.at(u) + square - 1.0).abs() < 1e-15, "1/cosh² = 1 − tanh² at {u}");
             let pair = DoubleDouble::from_f64(u);
             assert!((tanh.at(pair).hi - tanh.at(u)).abs() < 1e-15, "tanh {u}");
+            let (sine, area) = (Saturating::Sinh, Saturating::Asinh);
+            let back = area.at(sine.at(pair)) - pair;
+            assert!(back.hi.abs() < 1e-30 * u.abs(), "asinh sinh {u}");
+            if u.abs() < 3.0 {
+                let back = Saturating::Atanh.at(tanh.at(pair)) - pair;
+                assert!(back.hi.abs() < 1e-30, "atanh tanh {u}");
+            }
+            assert_eq!(area.at(1e-20 * u), 1e-20 * u);
             for function in [tanh, Saturating::Sinh] {
                 let (small, whole) = (DoubleDouble::from_f64(1e-20 * u), DoubleDouble::from_f64(u));
                 assert!(

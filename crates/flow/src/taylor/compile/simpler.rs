@@ -5,7 +5,7 @@ use crate::error::FlowError;
 use crate::taylor::form::{BilinearForm, Row};
 use crate::taylor::program::Rule;
 use crate::taylor::quotients::{Factor, Simpler, modulus_at};
-use crate::taylor::saturating::{Saturating, hyperbolic};
+use crate::taylor::saturating::{Saturating, area, hyperbolic};
 use liouville::graph::{Graph, Step};
 use liouville::number::rational::Rational;
 use liouville::number::{BinaryOperation, UnaryFunction};
@@ -68,8 +68,14 @@ impl Compiler {
         Some(found)
     }
 
-    /// Form of eᵘ − e⁻ᵘ = 2 sinh u.
-    pub(super) fn difference(&mut self, graph: &Graph, place: usize) -> Option<BilinearForm> {
+    /// Form of eᵘ − e⁻ᵘ = 2 sinh u, and of the logarithms that are asinh u and 2 atanh u.
+    pub(super) fn area_or_sine(&mut self, graph: &Graph, place: usize) -> Option<BilinearForm> {
+        if let Some((function, u)) = area(graph, place) {
+            let x = self.row(u);
+            let weight = if function == Saturating::Atanh { 2 } else { 1 };
+            let area = self.saturating(function, x);
+            return Some(BilinearForm::of_row(Rational::from(weight), area));
+        }
         let Some((true, [u, _])) = hyperbolic(graph, place) else { return None };
         let x = self.row(u);
         let sine = self.saturating(Saturating::Sinh, x);
@@ -166,6 +172,23 @@ impl Compiler {
             self.emit(Rule::Sum, Self::product(tanh, first));
             self.saturating.push((function, x, first));
             return first;
+        }
+        if matches!(function, Saturating::Asinh | Saturating::Atanh) {
+            // z' = u'/√(1 + u²), or u'/(1 − u²)
+            let sign = if function == Saturating::Asinh { 1 } else { -1 };
+            let square = BilinearForm::of_product(Rational::from(sign), x, x);
+            let square = BilinearForm::of_constant(&Self::one()).plus(square);
+            let mut below = self.emit(Rule::Sum, square);
+            if function == Saturating::Asinh {
+                let out = self.next;
+                below = self.emit(Rule::Sqrt(below), Self::product(out, out));
+            }
+            let out = self.next;
+            let slope = self.emit(Rule::Recip(below), Self::product(below, out));
+            let rule = Rule::Saturating { function, x, slope };
+            let row = self.emit(rule, Self::product(theta, slope));
+            self.saturating.push((function, x, row));
+            return row;
         }
         if matches!(function, Saturating::Sinh | Saturating::Cosh) {
             let (sine, cosine) = (Saturating::Sinh, Saturating::Cosh);
