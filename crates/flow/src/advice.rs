@@ -95,7 +95,9 @@ impl FlowError {
                 "`liouville motion periodic` tells what kind a point is; start near a hyperbolic one"
             }
             FlowError::TooLong => "write the field with fewer terms, by [let]",
-            FlowError::Stopped => "follow it again, for a shorter time",
+            FlowError::Stopped | FlowError::StoppedAt { .. } => {
+                "follow it again, for a shorter time"
+            }
             FlowError::NoStart => {
                 "give a start nearer to the level, where the slopes of its equations do not vanish, or \
                  another --seed or --index"

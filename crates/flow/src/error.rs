@@ -2,7 +2,9 @@
 
 mod ends;
 
-use ends::{endless, overflow, runs_away, shrinking, singular, slides, too_short, without_value};
+use ends::{
+    endless, overflow, runs_away, shrinking, singular, slides, stopped_at, too_short, without_value,
+};
 use liouville::graph::Fault;
 use serde::{Deserialize, Serialize};
 
@@ -306,6 +308,15 @@ pub enum FlowError {
     #[error("the motion was stopped")]
     #[serde(skip)]
     Stopped,
+    /// A single motion was stopped from outside.
+    #[error("{}", stopped_at(*time, state))]
+    #[serde(skip)]
+    StoppedAt {
+        /// Time that was reached.
+        time: f64,
+        /// State at that time.
+        state: Vec<f64>,
+    },
     /// No state on the level set was found.
     #[error("no state on the level set was found near the one that was asked for")]
     NoStart,

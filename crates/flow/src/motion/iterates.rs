@@ -5,6 +5,7 @@
 //! ```
 
 use crate::error::FlowError;
+use crate::halt::Halt;
 use crate::motion::columns::Columns;
 use crate::motion::orbit::{Followed, MEASUREMENTS, Precision, Watch};
 use crate::motion::recorded::point;
@@ -50,6 +51,14 @@ pub enum IterateError {
         /// The last state, in words.
         place: String,
     },
+    /// The orbit was stopped from outside.
+    #[error("stopped after {}, at {place}", counted(*iterates))]
+    Stopped {
+        /// Number of iterates that were found.
+        iterates: u64,
+        /// The last state, in words.
+        place: String,
+    },
     /// A number is beyond the range of f64.
     #[error("the orbit escapes: after {}, at {place}, the next is too large for f64", counted(*iterates))]
     Escapes {
@@ -68,7 +77,9 @@ impl IterateError {
             IterateError::NoValue { iterates: 0, .. } => {
                 "choose another start, or other parameters"
             }
-            IterateError::NoValue { .. } | IterateError::Escapes { .. } => {
+            IterateError::NoValue { .. }
+            | IterateError::Escapes { .. }
+            | IterateError::Stopped { .. } => {
                 "choose another start, or fewer --iterates"
             }
         }
@@ -132,6 +143,7 @@ fn one(
     let every = sampling.map_or(1, |own| own.every.max(1));
     let mut next = map.stepper(precision);
     let mut state = start.state.clone();
+    let halt = Halt::current();
     let mut measured = 0;
     for index in 0..=count {
         if let Some(row) = row.as_mut().filter(|_| index % every == 0) {
@@ -144,6 +156,9 @@ fn one(
         }
         if index % TOLD_EVERY == 0 {
             reach(index as f64 / count.max(1) as f64);
+            if halt.is_raised() && index < count {
+                return Err(IterateError::Stopped { iterates: index, place: map.place(&state) });
+            }
         }
         if index < count {
             state = next(&state).map_err(|fault| map.problem(&fault, index, &state))?;
@@ -249,16 +264,21 @@ impl RecordedMap {
         }
     }
 
+    /// A state in words.
+    fn place(&self, state: &[DoubleDouble]) -> String {
+        // −0 + 0 is 0.
+        let parts =
+            self.names.iter().zip(state).map(|(name, x)| format!("{name} = {:?}", x.hi + 0.0));
+        parts.collect::<Vec<_>>().join(", ")
+    }
+
     pub(super) fn problem(
         &self,
         fault: &Fault,
         iterates: u64,
         state: &[DoubleDouble],
     ) -> IterateError {
-        // −0 + 0 is 0.
-        let parts =
-            self.names.iter().zip(state).map(|(name, x)| format!("{name} = {:?}", x.hi + 0.0));
-        let place = parts.collect::<Vec<_>>().join(", ");
+        let place = self.place(state);
         match fault {
             Fault::Formula(index) => {
                 let formula = self.formulas.get(*index).cloned().unwrap_or_default();

@@ -341,13 +341,14 @@ impl Record {
         // The vectors align like e^(-λt), where the second exponent is 0.
         let expected = libm::exp(-largest.mean * time / 2.0).max(PARALLEL);
         let is_aligned = self.alignment.is_none_or(|found| found.index <= expected);
-        if largest.mean <= least || largest.later <= least || !is_aligned {
+        if largest.mean <= least || largest.later <= least {
             return Character::Regular;
         }
+        // Equal exponents, as at a focus, never align vectors.
         if let Some(without_chaos) = self.extent.character() {
             return without_chaos;
         }
-        if self.is_on_surface {
+        if self.is_on_surface || !is_aligned {
             return Character::Regular;
         }
         let keeps_sign = divergence.mean * divergence.later > 0.0

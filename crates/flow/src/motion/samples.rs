@@ -18,6 +18,8 @@ pub struct Sampling<'s> {
     pub columns: &'s Columns,
     /// Interval Δ, above 0 also backwards in time.
     pub every: Rational,
+    /// Whether samples are taken within steps too, as a picture needs them where a motion is fast.
+    pub with_steps: bool,
 }
 
 /// A motion with its samples.
@@ -65,7 +67,7 @@ fn one(
         Err(problem) => return failed(problem),
     };
     let mut samples = match sampling.zip(gauge.as_ref()) {
-        Some((sampling, gauge)) => Samples::new(gauge, &sampling.every, time),
+        Some((sampling, gauge)) => Samples::new(gauge, sampling, time),
         None => Samples::nothing(),
     };
     let until = DoubleDouble::from_rational(time);
@@ -73,31 +75,40 @@ fn one(
     SampledOrbit { orbit, rows: samples.rows }
 }
 
+/// Largest number of samples within steps, and number of them in each step.
+const MOST_FURTHER: usize = 20_000;
+const PARTS: u32 = 4;
+
 /// Function from a time and a state to a row.
 type Row<'s> = Box<dyn FnMut(DoubleDouble, &[DoubleDouble]) -> Vec<DoubleDouble> + 's>;
 
 /// Samples taken so far.
 pub(crate) struct Samples<'s> {
     row: Option<Row<'s>>,
-    /// Interval, negative backwards in time.
+    /// Interval, negative backwards in time, and number of samples at its multiples.
     every: Rational,
+    count: i64,
+    /// Number of further samples that may be taken within steps.
+    further: usize,
     rows: Vec<Vec<DoubleDouble>>,
 }
 
 impl<'s> Samples<'s> {
     /// Takes no samples.
     pub fn nothing() -> Self {
-        Self { row: None, every: Rational::from(0), rows: Vec::new() }
+        Self { row: None, every: Rational::from(0), count: 0, further: 0, rows: Vec::new() }
     }
 
-    fn new(gauge: &'s Gauge, every: &Rational, time: &Rational) -> Self {
+    fn new(gauge: &'s Gauge, sampling: &Sampling<'_>, time: &Rational) -> Self {
         let sign = Rational::from(if time.to_f64().0 < 0.0 { -1 } else { 1 });
-        Self { row: Some(Box::new(gauge.rows())), every: every * &sign, rows: Vec::new() }
+        let every = &sampling.every * &sign;
+        let further = if sampling.with_steps { MOST_FURTHER } else { 0 };
+        Self { row: Some(Box::new(gauge.rows())), every, count: 0, further, rows: Vec::new() }
     }
 
     /// Time of the next sample, rounded once.
     fn next(&self) -> DoubleDouble {
-        DoubleDouble::from_rational(&(&self.every * &Rational::from(self.rows.len() as i64)))
+        DoubleDouble::from_rational(&(&self.every * &Rational::from(self.count)))
     }
 
     /// Takes the samples of a piece of the motion that begins at a time.
@@ -109,6 +120,7 @@ impl<'s> Samples<'s> {
     ) {
         let Some(mut row) = self.row.take() else { return };
         let forwards = length.leading() >= 0.0;
+        let is_fast = self.further > 0 && self.is_fast(piece.duration(length));
         loop {
             let next = self.next();
             let after = piece.after(next - begin);
@@ -116,13 +128,26 @@ impl<'s> Samples<'s> {
             if beyond.hi != 0.0 && (beyond.hi > 0.0) == forwards {
                 break;
             }
-            self.rows.push(row(next, &piece.state(T::split(after).0)));
+            if !is_fast {
+                self.rows.push(row(next, &piece.state(T::split(after).0)));
+            }
+            self.count += 1;
             // Steps of length 0 do not move on.
             if length.leading() == 0.0 {
                 break;
             }
         }
+        for part in (1..=PARTS).filter(|_| is_fast) {
+            let after = length * T::float(f64::from(part) / f64::from(PARTS));
+            self.rows.push(row(begin + piece.duration(after), &piece.state(after)));
+            self.further = self.further.saturating_sub(1);
+        }
         self.row = Some(row);
+    }
+
+    /// Whether a piece is shorter than the interval between samples.
+    fn is_fast(&self, duration: DoubleDouble) -> bool {
+        duration.hi != 0.0 && duration.hi.abs() < self.every.to_f64().0.abs()
     }
 
     /// Takes the sample at the end, where one is due.

@@ -28,6 +28,7 @@ mod surface;
 pub(super) mod sweep;
 mod symmetric;
 mod track;
+mod watching;
 
 use clap::Subcommand;
 
@@ -249,7 +250,7 @@ impl MotionCommand {
     fn limits(&self) -> LimitArgs {
         match self {
             // it reports what was reached
-            Self::Continue(_) => LimitArgs::default(),
+            Self::Continue(_) | Self::Orbit(_) => LimitArgs::default(),
             _ => self.subject().limits,
         }
     }

@@ -22,6 +22,7 @@ use super::motion::{MotionArgs, Threads, parse_number, parse_positive, rendered,
 use super::output::{Ending, Output};
 use super::starts::{GivenStart, Named, Starts, misfit};
 use super::track;
+use super::watching::watched;
 use super::{CommandOutput, write};
 
 /// Number of intervals between samples where no interval is given.
@@ -108,7 +109,13 @@ pub fn parse_iterates(text: &str) -> Result<u64, String> {
     count.map(|count| count as u64).ok_or("write a whole number from 1 to 1e10".to_string())
 }
 
+/// Follows the motions, until a limit or Ctrl-C ends them early.
 pub fn run(options: &OrbitArgs) -> Result<CommandOutput, String> {
+    watched(options.subject.limits, || answer(options))
+}
+
+/// Follows the motions and writes their file; returns the report, and whether some were stopped.
+fn answer(options: &OrbitArgs) -> Result<(String, bool), String> {
     let subject = &options.subject;
     let case = subject.open_with_maps()?;
     if case.model.system.is_map() {
@@ -158,7 +165,9 @@ pub fn run(options: &OrbitArgs) -> Result<CommandOutput, String> {
             (found, Some(points))
         }
         false => {
-            let sampling = Sampling { columns: &columns, every };
+            let is_picture = out.as_ref().is_some_and(|out| out.ending.is_picture());
+            let with_steps = is_picture && options.every.is_none();
+            let sampling = Sampling { columns: &columns, every, with_steps };
             let sampling = out.is_some().then_some(&sampling);
             let followed = (&time, precision);
             let progress = |share| bar.add(share);
@@ -190,9 +199,11 @@ pub fn run(options: &OrbitArgs) -> Result<CommandOutput, String> {
         save(&case, (options, &time), out, (&titles[..], plot), &found)?;
     }
     let ended = found.iter().filter_map(|one| one.orbit.as_ref().err());
+    let is_stopped = ended.clone().any(|problem| matches!(problem, FlowError::StoppedAt { .. }));
     // Single motions may end early; if all do, the command fails.
     if let Some(problem) = ended.clone().next()
         && ended.count() == found.len()
+        && !is_stopped
     {
         let rows: usize = found.iter().map(|one| one.rows.len()).sum();
         let saved = out.filter(|_| rows > 0);
@@ -221,7 +232,7 @@ pub fn run(options: &OrbitArgs) -> Result<CommandOutput, String> {
             numbered(&titles, found.len()).join(", ")
         )
     });
-    Ok(CommandOutput { text: text + &saved.unwrap_or_default(), code: 0 })
+    Ok((text + &saved.unwrap_or_default(), is_stopped))
 }
 
 fn columns(case: &Case, options: &OrbitArgs) -> Result<Columns, String> {
