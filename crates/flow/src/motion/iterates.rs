@@ -79,9 +79,7 @@ impl IterateError {
             }
             IterateError::NoValue { .. }
             | IterateError::Escapes { .. }
-            | IterateError::Stopped { .. } => {
-                "choose another start, or fewer --iterates"
-            }
+            | IterateError::Stopped { .. } => "choose another start, or fewer --iterates",
         }
     }
 }

@@ -75,9 +75,9 @@ fn one(
     SampledOrbit { orbit, rows: samples.rows }
 }
 
-/// Largest number of samples within steps, and number of them in each step.
-const MOST_FURTHER: usize = 20_000;
-const PARTS: u32 = 4;
+/// Number of samples within a step, halved after each of so many of them, down to 1.
+const PARTS: u32 = 8;
+const MANY: usize = 24_000;
 
 /// Function from a time and a state to a row.
 type Row<'s> = Box<dyn FnMut(DoubleDouble, &[DoubleDouble]) -> Vec<DoubleDouble> + 's>;
@@ -88,22 +88,22 @@ pub(crate) struct Samples<'s> {
     /// Interval, negative backwards in time, and number of samples at its multiples.
     every: Rational,
     count: i64,
-    /// Number of further samples that may be taken within steps.
-    further: usize,
+    /// Number of samples in the present step; 0 for none within steps.
+    parts: u32,
     rows: Vec<Vec<DoubleDouble>>,
 }
 
 impl<'s> Samples<'s> {
     /// Takes no samples.
     pub fn nothing() -> Self {
-        Self { row: None, every: Rational::from(0), count: 0, further: 0, rows: Vec::new() }
+        Self { row: None, every: Rational::from(0), count: 0, parts: 0, rows: Vec::new() }
     }
 
     fn new(gauge: &'s Gauge, sampling: &Sampling<'_>, time: &Rational) -> Self {
         let sign = Rational::from(if time.to_f64().0 < 0.0 { -1 } else { 1 });
         let every = &sampling.every * &sign;
-        let further = if sampling.with_steps { MOST_FURTHER } else { 0 };
-        Self { row: Some(Box::new(gauge.rows())), every, count: 0, further, rows: Vec::new() }
+        let parts = if sampling.with_steps { PARTS } else { 0 };
+        Self { row: Some(Box::new(gauge.rows())), every, count: 0, parts, rows: Vec::new() }
     }
 
     /// Time of the next sample, rounded once.
@@ -120,7 +120,7 @@ impl<'s> Samples<'s> {
     ) {
         let Some(mut row) = self.row.take() else { return };
         let forwards = length.leading() >= 0.0;
-        let is_fast = self.further > 0 && self.is_fast(piece.duration(length));
+        let is_fast = self.is_fast(piece.duration(length));
         loop {
             let next = self.next();
             let after = piece.after(next - begin);
@@ -137,17 +137,20 @@ impl<'s> Samples<'s> {
                 break;
             }
         }
-        for part in (1..=PARTS).filter(|_| is_fast) {
-            let after = length * T::float(f64::from(part) / f64::from(PARTS));
+        for part in (1..=self.parts).filter(|_| is_fast) {
+            let after = length * T::float(f64::from(part) / f64::from(self.parts));
             self.rows.push(row(begin + piece.duration(after), &piece.state(after)));
-            self.further = self.further.saturating_sub(1);
+        }
+        if self.parts > 0 {
+            self.parts = (PARTS >> (self.rows.len() / MANY).min(31)).max(1);
         }
         self.row = Some(row);
     }
 
-    /// Whether a piece is shorter than the interval between samples.
+    /// Whether samples within a piece are nearer to each other than those at intervals.
     fn is_fast(&self, duration: DoubleDouble) -> bool {
-        duration.hi != 0.0 && duration.hi.abs() < self.every.to_f64().0.abs()
+        let least = duration.hi.abs() / f64::from(self.parts.max(1));
+        self.parts > 0 && duration.hi != 0.0 && least < self.every.to_f64().0.abs()
     }
 
     /// Takes the sample at the end, where one is due.

@@ -114,6 +114,7 @@ impl Compiler {
         for own in &simpler.limits {
             rows.push(self.limit(own));
         }
+        let mut others: Vec<Row> = Vec::new();
         for (place, power) in &simpler.rest.factors {
             let (factor, row) = match power {
                 1.. => self.factor(*place),
@@ -121,9 +122,13 @@ impl Compiler {
             };
             for _ in 0..power.unsigned_abs() {
                 coefficient = &coefficient * &factor;
-                rows.push(row);
+                others.push(row);
             }
         }
+        // Small functions and large factors in turn, so that no part of the product is too large or small.
+        let count = rows.len().max(others.len());
+        let turn = |k: usize| [rows.get(k), others.get(k)].into_iter().flatten();
+        let rows = (0..count).flat_map(turn).copied().collect();
         Ok(self.product_of(coefficient, rows))
     }
 
