@@ -12,7 +12,7 @@
 //! z = sin x     n z_n = θx_n y_0 + Σ θx_k y_{n-k}, y = cos x; the same with -sin for cos
 //! z = atan x    n y_0 z_n = n x_n - Σ θz_k y_{n-k}, y = 1 + x²
 //! z = tanh x    n z_n = θx_n w_0 + Σ θx_k w_{n-k}, w = 1/cosh² x; the same with -2 z w for w
-//! z = 1/(1+eˣ)  n z_n = -θx_n v_0 - Σ θx_k v_{n-k}, v = z - z²
+//! z = 1/(1+eˣ)  n z_n = -θx_n v_0 - Σ θx_k v_{n-k}, v = eˣ z²; the same with v - 2 v z for v
 //! z = sign x    z_n = 0; |x| = z x
 //! z = near x    z_n = 0
 //! z = x^q       n x_0 z_n = q θx_n z_0 + Σ (q θx_k z_{n-k} - θz_k x_{n-k})

@@ -21,6 +21,8 @@ pub(crate) enum Saturating {
     Bell,
     /// 1/(1 + eᵘ)
     Logistic,
+    /// eᵘ/(1 + eᵘ)²
+    Hump,
     /// sinh u
     Sinh,
     /// cosh u
@@ -92,6 +94,11 @@ impl Saturating {
                 let t = falling(1.0);
                 One::float(2.0) * t * (One::ONE + t * t).recip()
             }
+            Saturating::Hump => {
+                let t = falling(1.0);
+                let root = (One::ONE + t).recip();
+                t * root * root
+            }
             Saturating::Logistic => {
                 let t = falling(1.0);
                 let value = (One::ONE + t).recip();
@@ -109,14 +116,14 @@ impl Saturating {
             | Saturating::Asinh
             | Saturating::Atanh => 1.0,
             Saturating::Fall => -2.0,
-            Saturating::Logistic | Saturating::Bell => -1.0,
+            Saturating::Logistic | Saturating::Hump | Saturating::Bell => -1.0,
         }
     }
 
     /// Rate k at which what varies of the function falls, as e^(−k|u|); 0 where it grows.
     pub(crate) fn rate(self) -> f64 {
         match self {
-            Saturating::Logistic | Saturating::Bell => 1.0,
+            Saturating::Logistic | Saturating::Hump | Saturating::Bell => 1.0,
             Saturating::Tanh | Saturating::Fall => 2.0,
             Saturating::Sinh | Saturating::Cosh | Saturating::Asinh | Saturating::Atanh => 0.0,
         }
@@ -262,6 +269,8 @@ mod tests {
             let bell = Saturating::Bell.at(u);
             assert!((bell * bell / fall.at(u) - 1.0).abs() < 1e-14, "1/cosh {u}");
             assert!((logistic.at(u) - 1.0 / (1.0 + u.exp())).abs() < 1e-15, "1/(1 + e^{u})");
+            let hump = Saturating::Hump.at(u) - logistic.at(u) * logistic.at(-u);
+            assert!(hump.abs() < 1e-16, "slope of the logistic function at {u}");
             let ratio = logistic.at(u) / (-u).exp() * (1.0 + (-u).exp());
             assert!((ratio - 1.0).abs() < 1e-14, "small values have all digits, at {u}");
         }

@@ -9,7 +9,7 @@ use crate::taylor::stepper::Stepper;
 use liouville::graph::{Kernel, with_widest_vectors};
 
 /// Largest change of the state over a piece on which events are sought, relative to its size.
-const FAR: f64 = 100.0;
+const FAR: f64 = 1.0;
 /// Number of times that a step is shortened for a further function.
 const MOST_CUTS: usize = 40;
 /// Part of κ by which a further function may be known less well than the state: sums of products of

@@ -33,17 +33,20 @@ impl Compiler {
         })
     }
 
-    /// Form of x + |y| or x − |y| where terms of x ± y cancel, as in max(a, b) = (a + b + |a − b|)/2: it
+    /// Form of ±x + |y| or x − |y| where terms of x ± y cancel, as in max(a, b) = (a + b + |a − b|)/2: it
     /// is (x + y) where y > 0, and (x − y) elsewhere, so that what cancels leaves no rounding.
     pub(super) fn extreme(&mut self, graph: &Graph, step: Step<'_>) -> Option<BilinearForm> {
-        let (x, modulus, sign) = match step {
-            Step::Binary(BinaryOperation::Add, a, b) if modulus_at(graph, b).is_some() => (a, b, 1),
-            Step::Binary(BinaryOperation::Add, a, b) => (b, a, 1),
-            Step::Binary(BinaryOperation::Sub, a, b) => (a, b, -1),
+        let is_modulus = |place: usize| modulus_at(graph, place).is_some();
+        let (x, weight, modulus, sign) = match step {
+            Step::Binary(BinaryOperation::Add, a, b) if is_modulus(b) => (a, 1, b, 1),
+            Step::Binary(BinaryOperation::Add, a, b) => (b, 1, a, 1),
+            Step::Binary(BinaryOperation::Sub, a, b) if is_modulus(b) => (a, 1, b, -1),
+            Step::Binary(BinaryOperation::Sub, a, b) => (b, -1, a, 1),
             _ => return None,
         };
         let y = modulus_at(graph, modulus)?;
         let (own, other) = (self.forms[x].clone()?, self.forms[y].clone()?);
+        let own = own.times(&Rational::from(weight));
         let beside = |sign: i64| own.clone().plus(other.clone().times(&Rational::from(sign)));
         let sides = [beside(sign), beside(-sign)];
         if sides.iter().any(|side| side.len() >= own.len() + other.len()) {
@@ -154,15 +157,13 @@ impl Compiler {
         }
         let theta = self.theta(x);
         let [first, second, third] = [0, 1, 2].map(|k| self.next + k);
-        let minus = Rational::from(-1);
         if function == Saturating::Logistic {
-            // z' = −(z − z²)u'
-            self.emit(
-                Rule::Saturating { function, x, slope: second },
-                Self::product(theta, second),
-            );
-            let square = BilinearForm::of_product(minus, first, first);
-            self.emit(Rule::Sum, BilinearForm::of_row(Self::one(), first).plus(square));
+            // z' = −v u' and v' = −v(1 − 2z)u': v has digits where z is 1 to rounding
+            let rule = |function, slope| Rule::Saturating { function, x, slope };
+            self.emit(rule(function, second), Self::product(theta, second));
+            self.emit(rule(Saturating::Hump, third), Self::product(theta, third));
+            let twice = BilinearForm::of_product(Rational::from(-2), first, second);
+            self.emit(Rule::Sum, BilinearForm::of_row(Self::one(), second).plus(twice));
             self.saturating.push((function, x, first));
             return first;
         }

@@ -226,7 +226,9 @@ fn a_source_that_turns_escapes_and_its_focus_is_an_unstable_rest() {
         "title = 'a'\n[state]\nx = '-2..2'\ny = '-2..2'\nz = '-2..2'\n[field]\n\
          \"x'\" = 'x - 5*y'\n\"y'\" = '5*x + y'\n\"z'\" = '-z'\n",
     );
-    for (begin, expected) in [("x=1 y=0 z=1", Character::Escape), ("x=0 y=0 z=0", Character::UnstableRest)] {
+    for (begin, expected) in
+        [("x=1 y=0 z=1", Character::Escape), ("x=0 y=0 z=0", Character::UnstableRest)]
+    {
         let motion = Variational::new(&case.model, &start(&case, begin)).expect("a motion");
         let found = motion.exponents(200.0).expect("exponents");
         assert_eq!(found.character, expected, "{begin}: {found:?}");

@@ -264,8 +264,45 @@ fn a_level_does_not_depend_on_what_is_beside_it() {
         ));
         let begin = format!("x={a}+3/5 y=4/5 z={z}");
         let end = followed(&case, &begin, 100.0, Precision::Float).expect("a motion").end;
-        let expected = (100.0 + 0.8f64.atan2(0.6)).cos();
-        let gap = end[0].hi - a.parse::<f64>().expect("a number") - expected;
-        assert!(gap.abs() < 1e-9, "{a}, {z}: {gap:e}");
+        let x = (end[0] - DoubleDouble::from_f64(a.parse().expect("a number"))).hi;
+        let off = x * x + end[1].hi * end[1].hi - 1.0;
+        assert!(off.abs() < 1e-9, "{a}, {z}: {off:e} off the level");
+        // Steps are those for the size of the whole state.
+        let error = if z == "0" { 1e-9 } else { 1e-4 };
+        let gap = x - (100.0 + 0.8f64.atan2(0.6)).cos();
+        assert!(gap.abs() < error, "{a}, {z}: {gap:e}");
+    }
+}
+
+#[test]
+fn gates_that_are_1_to_rounding_are_not_jumped() {
+    for (rate, closed) in [
+        ("1/(1+exp(-(x^2-4)*10))", 60.0 - 56.0010309),
+        ("1/(1+exp(-x^2))", 60.0 - 58.927845),
+        ("exp(x^2)/(1+exp(x^2))", 60.0 - 58.927845),
+    ] {
+        let case = field(&[("x", "1"), ("y", rate)]);
+        for precision in BOTH {
+            let end = followed(&case, "x=-30 y=0", 60.0, precision).expect("a motion").end;
+            assert!((60.0 - end[1].hi - closed).abs() < 1e-6, "{rate}, {precision:?}: {end:?}");
+        }
+    }
+}
+
+#[test]
+fn roots_of_polynomials_far_from_a_start_are_found() {
+    let line = field(&[("x", "1"), ("y", "0")]);
+    for (surface, begin, roots) in [
+        ("x^3 = x", "x=-1000 y=1", &[-1.0, 0.0, 1.0][..]),
+        ("x*(x-1)*(x-2)*(x-3) = 0", "x=-1000 y=1", &[0.0, 1.0, 2.0, 3.0]),
+        ("x^2 = 4", "x=-100000 y=1", &[-2.0, 2.0]),
+    ] {
+        let from: f64 =
+            begin["x=".len()..].split(' ').next().and_then(|x| x.parse().ok()).expect("x");
+        let found = crossings(&line, surface, begin, roots.len());
+        for ((time, _), root) in found.iter().zip(roots) {
+            assert!((time + from - root).abs() < 1e-6, "{surface}: {found:?}");
+        }
+        assert_eq!(found.len(), roots.len(), "{surface}");
     }
 }
