@@ -64,10 +64,11 @@ pub fn closed_orbit(
         cycle(model, start, time, &Pins { functions, kept, has_surface: surface.is_some() })
     };
     match found(kept.clone()) {
-        Err(FlowError::Degenerate(period)) => {
+        // Along a family Newton's method may also lose its way.
+        Err(error @ (FlowError::Degenerate(_) | FlowError::NoClosedOrbit(_))) => {
             let further = Conserved::further(case, model, start, &kept)?;
             if further.is_empty() {
-                return Err(FlowError::Degenerate(period));
+                return Err(error);
             }
             kept.extend(further);
             found(kept)

@@ -17,6 +17,11 @@ const MOST_CUTS: usize = 40;
 const SLACK: f64 = 0.4;
 /// Multiple of the first term left out by which a further function may differ from its polynomial.
 const UNKNOWN: f64 = 1e4;
+/// Part of its largest term below which a function is looked at from nearer by, number of places within a
+/// step where that is looked for, and part of the way there that is taken.
+const CANCELLED: f64 = 1.0 / 65536.0;
+const LOOKS: u32 = 16;
+const NEARER: f64 = 0.9375;
 /// Number of times that a step is halved before a branch point.
 const MOST_HALVES: usize = 60;
 
@@ -76,11 +81,46 @@ impl<T: SeriesNumber> Stepper<T> {
                     is_known = false;
                 }
             }
-            if is_known && self.fits(output, &ends, &counted) {
+            if is_known
+                && self.fits(output, &ends, &counted)
+                && self.is_clear(output, &ends, &counted)
+            {
                 break;
             }
         }
         ends
+    }
+
+    /// Whether a further function is nowhere small beside its terms on the present pieces: there its
+    /// polynomial about their beginning has few digits, and one from nearer by has more. Shortens
+    /// steps up to such places.
+    fn is_clear(
+        &mut self,
+        output: usize,
+        ends: &Ends<T>,
+        counted: &impl Fn(&Self, usize) -> bool,
+    ) -> bool {
+        let mut is_clear = true;
+        for index in 0..T::LANES {
+            let small = CANCELLED * ends.largest(index);
+            if ends.is_simple(index) || !counted(self, index) || !self.is_regular(index) {
+                continue;
+            }
+            let terms: Vec<T::One> =
+                self.series.output(output).iter().map(|x| x.lane(index)).collect();
+            let lane = &mut self.lanes[index];
+            if terms[0].leading().abs() <= small || !lane.moves() {
+                continue;
+            }
+            let part = |k: u32| T::One::float(f64::from(k) / f64::from(LOOKS));
+            let at = |k: u32| value(&terms, lane.step * part(k)).0.leading().abs();
+            if let Some(k) = (1..=LOOKS).find(|k| at(*k) < small) {
+                lane.step = lane.step * part(k) * T::One::float(NEARER);
+                lane.is_cut = true;
+                is_clear = false;
+            }
+        }
+        is_clear
     }
 
     /// Whether the polynomials of a further function are its values at the ends of the present pieces,

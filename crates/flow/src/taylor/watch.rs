@@ -7,7 +7,7 @@
 
 use std::sync::Arc;
 
-use crate::taylor::event::{Event, Sides, extremum, turns, value};
+use crate::taylor::event::{Event, Sides, extremum, size, turns, value};
 use crate::taylor::number::SeriesNumber;
 use crate::taylor::shorten::known_part;
 use crate::taylor::stepper::Stepper;
@@ -91,11 +91,26 @@ impl Domain {
         }
         let ends = |event: Event<T>| match event {
             Event::Tangency { .. } if self == Domain::NotNegative => None,
+            Event::Crossing { .. }
+                if self == Domain::NotNegative && !is_below(argument, length) =>
+            {
+                None
+            }
             Event::Tangency { after } | Event::Crossing { after, .. } => Some(after),
         };
         let mut sides = Sides::on(first >= 0.0);
         sides.events(argument, length, || 0.0).into_iter().find_map(ends)
     }
+}
+
+/// Whether a function is below 0 by more than rounding somewhere on a piece, as far as samples show; what
+/// touches 0 at the end is not.
+fn is_below<T: SeriesNumber<One = T>>(argument: &[T], length: T) -> bool {
+    const SAMPLES: i32 = 32;
+    const ROUNDINGS: f64 = 256.0;
+    let limit = ROUNDINGS * T::EPSILON * size(argument, length);
+    let at = |k: i32| length * T::float(f64::from(k) / f64::from(SAMPLES));
+    (1..=SAMPLES).any(|k| value(argument, at(k)).0.leading() < -limit)
 }
 
 /// Whether a function that begins at 0 is negative next.
