@@ -104,14 +104,17 @@ impl Coordinate {
     /// Coordinate of a name that varies along a branch of closed orbits: a parameter, a component of
     /// one, the energy, or a proved integral; also returns the canonical name.
     pub fn of_branch(case: &Case, name: &str) -> Result<(String, Self), AxisMistake> {
+        let names = parameters(case);
         let energy = case.model.system.has_energy().then(|| "energy".to_string());
         let integrals = Conserved::claimed(case).map(|(_, own)| own.name().to_string());
-        let names: Vec<String> =
-            parameters(case).into_iter().chain(energy).chain(integrals).collect();
-        let help = match names.split_last() {
-            None => "declare what varies in [parameters], as a = \"0.5..2\"".to_string(),
-            Some((only, [])) => format!("vary {only}"),
-            Some((last, others)) => format!("vary {}, or {last}", others.join(", ")),
+        let kept: Vec<String> = energy.into_iter().chain(integrals).collect();
+        let help = match (names.as_slice(), kept.split_last()) {
+            ([], None) => "declare what varies in [parameters], as a = \"0.5..2\"".to_string(),
+            ([], Some((only, []))) => format!("vary {only}: the case has no parameters"),
+            (names, None) => format!("vary {}", names.join(", ")),
+            (names, Some((last, others))) => {
+                format!("vary {}, or {last}", [names, others].concat().join(", "))
+            }
         };
         let found = match Self::varying(case, name, &help) {
             Err(mistake) => match Conserved::named(case, name) {

@@ -2,6 +2,7 @@
 //! quotient of exponential functions has no value in doubles from an argument of 710 on.
 
 use liouville::graph::{Expr, Graph, Step};
+use liouville::number::rational::Rational;
 use liouville::number::{BinaryOperation, UnaryFunction};
 
 /// Argument u of (eᵘ − e⁻ᵘ)/(eᵘ + e⁻ᵘ) at a place.
@@ -9,12 +10,25 @@ pub fn tangent(graph: &Graph, place: usize) -> Option<usize> {
     let Step::Binary(BinaryOperation::Mul, a, b) = graph.step(place) else { return None };
     [(a, b), (b, a)].into_iter().find_map(|(above, inverse)| {
         let Step::Unary(UnaryFunction::Recip, below) = graph.step(inverse) else { return None };
+        let ((c, above), (d, below)) = (scaled(graph, above), scaled(graph, below));
         let Step::Binary(BinaryOperation::Sub, p, q) = graph.step(above) else { return None };
         let Step::Binary(BinaryOperation::Add, r, s) = graph.step(below) else { return None };
-        let is_same = (p, q) == (r, s) || (p, q) == (s, r);
+        let is_same = c == d && ((p, q) == (r, s) || (p, q) == (s, r));
         let (u, v) = (exponent(graph, p)?, exponent(graph, q)?);
         (is_same && are_opposite(graph, u, v)).then_some(u)
     })
+}
+
+/// A step as a constant times another.
+fn scaled(graph: &Graph, place: usize) -> (Rational, usize) {
+    if let Step::Binary(BinaryOperation::Mul, a, b) = graph.step(place) {
+        for (constant, other) in [(a, b), (b, a)] {
+            if let Step::Constant(value) = graph.step(constant) {
+                return (value.clone(), other);
+            }
+        }
+    }
+    (Rational::from(1), place)
 }
 
 fn exponent(graph: &Graph, place: usize) -> Option<usize> {
