@@ -80,9 +80,9 @@ impl FlowError {
                  fold two of them meet, and beyond it there is none"
             }
             FlowError::Degenerate(_) => {
-                "where an integral besides the energy is kept, closed orbits come in families, and have \
-                 no multipliers: list such integrals in a claim, closed-orbit with integrals = [\"…\"]; \
-                 the energy of a field is one of them"
+                "where a further integral is kept, closed orbits come in families, and have no \
+                 multipliers: claim it (integral = \"…\", and of a field its energy too), and if it is \
+                 proved its value is held"
             }
             FlowError::NoReversor { .. } => {
                 "name another of L=0, l=0, l=π/2, or another section (--g0); `liouville report` lists the reversors of a body"
@@ -95,13 +95,15 @@ impl FlowError {
                 "`liouville motion periodic` tells what kind a point is; start near a hyperbolic one"
             }
             FlowError::TooLong => "write the field with fewer terms, by [let]",
-            FlowError::Stopped => "follow it again, for a shorter time",
+            FlowError::Stopped | FlowError::StoppedAt { .. } => {
+                "follow it again, for a shorter time"
+            }
             FlowError::NoStart => {
                 "give a start nearer to the level, where the slopes of its equations do not vanish, or \
                  another --seed or --index"
             }
-            FlowError::NoEnergyState { .. } => {
-                "give an energy between these, or a start whose energy is near to it"
+            FlowError::NoValueState { .. } => {
+                "give a value between these, or a start at which it is near to the one you want"
             }
             FlowError::Recording(_) => "use operations that hold for every number",
         }

@@ -2,7 +2,9 @@
 
 mod ends;
 
-use ends::{endless, overflow, runs_away, shrinking, singular, slides, too_short, without_value};
+use ends::{
+    endless, overflow, runs_away, shrinking, singular, slides, stopped_at, too_short, without_value,
+};
 use liouville::graph::Fault;
 use serde::{Deserialize, Serialize};
 
@@ -306,20 +308,31 @@ pub enum FlowError {
     #[error("the motion was stopped")]
     #[serde(skip)]
     Stopped,
+    /// A single motion was stopped from outside.
+    #[error("{}", stopped_at(*time, state))]
+    #[serde(skip)]
+    StoppedAt {
+        /// Time that was reached.
+        time: f64,
+        /// State at that time.
+        state: Vec<f64>,
+    },
     /// No state on the level set was found.
     #[error("no state on the level set was found near the one that was asked for")]
     NoStart,
-    /// No state with an energy was found.
+    /// No state with a value of the energy, or of an integral, was found.
     #[error(
-        "no state with the energy {energy} was found near the start; drawn states have energies from \
-         {low} to {high}"
+        "no state with {name} = {value} was found near the start; drawn states have values from {low} \
+         to {high}"
     )]
-    NoEnergyState {
-        /// Energy that is wanted.
-        energy: String,
-        /// Least energy of some drawn states.
+    NoValueState {
+        /// Name of the function.
+        name: String,
+        /// Value that is wanted.
+        value: String,
+        /// Least value at some drawn states.
         low: String,
-        /// Greatest energy of them.
+        /// Greatest value at them.
         high: String,
     },
     /// The equations cannot be recorded.

@@ -44,7 +44,8 @@ impl Drop for Former {
 }
 
 /// Runs work whose motions end early once the flag is raised; each of them then yields
-/// [`FlowError::Stopped`](crate::FlowError::Stopped).
+/// [`FlowError::Stopped`](crate::FlowError::Stopped), single orbits
+/// [`FlowError::StoppedAt`](crate::FlowError::StoppedAt).
 ///
 /// ```
 /// use std::sync::Arc;
@@ -58,7 +59,7 @@ impl Drop for Former {
 /// let raised = Arc::new(AtomicBool::new(true));
 /// let found =
 ///     stoppable(&raised, || orbit(&case, start, DoubleDouble::from_f64(1e9), Precision::Float));
-/// assert!(matches!(found, Err(FlowError::Stopped)));
+/// assert!(matches!(found, Err(FlowError::StoppedAt { .. })));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn stoppable<R>(flag: &Arc<AtomicBool>, work: impl FnOnce() -> R) -> R {

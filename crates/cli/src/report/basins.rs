@@ -8,7 +8,7 @@ use liouville::case::Case;
 use liouville_draw::{
     Axis, CATEGORIES, Layer, LegendEntry, MarkShape, MarkedPoint, Paint, Plot, Text, math, plain,
 };
-use liouville_flow::{Attractor, BasinRequest, Basins, Character, Destiny, StateAxis};
+use liouville_flow::{Attractor, BasinRequest, Basins, Character, Conserved, Destiny, StateAxis};
 
 /// Colours of motions without an attractor.
 const UNSETTLED: Paint = Paint::Same([0xd4, 0xd4, 0xd4]);
@@ -301,9 +301,13 @@ impl BasinReport<'_> {
             let name = self.case.model.component_name(place);
             facts::equation(&name, &self.request.base[place].to_string())
         }));
-        if let Some(energy) = self.request.energy {
-            found.push(facts::equation("h", &energy.to_string()));
-        }
+        found.extend(self.request.fixed.iter().map(|own| {
+            let name = match &own.function {
+                Conserved::Energy => "h",
+                function => function.name(),
+            };
+            facts::equation(name, &own.value.to_string())
+        }));
         found.extend(facts::parameters(self.case, &[]));
         facts::listed(found)
     }

@@ -5,7 +5,8 @@ use serde_json::{Value, json};
 
 use super::cycle;
 use liouville_flow::{
-    Alignment, Character, Estimate, Exponents, FlowError, MeasuredNumber, Spectrum,
+    Alignment, Character, Estimate, Exponents, FlowError, IterateError, MapExponents,
+    MeasuredNumber, Spectrum,
 };
 
 /// Error below which a number with five decimals shows nothing.
@@ -95,9 +96,14 @@ fn later(Estimate { later, error, .. }: Estimate) -> String {
 }
 
 fn lines(found: &Exponents) -> String {
+    lines_over(found, "t", "mean divergence ")
+}
+
+/// Lines with the name of what passes, and of the mean growth of volume.
+fn lines_over(found: &Exponents, over: &str, volume: &str) -> String {
     let mut out = format!(
-        "  t = {}: {}\n  largest exponent {} (later half {})\n  \
-         mean divergence  {} (later half {})\n",
+        "  {over} = {}: {}\n  largest exponent {} (later half {})\n  \
+         {volume} {} (later half {})\n",
         found.time,
         found.character.name(),
         shown(found.largest),
@@ -111,7 +117,7 @@ fn lines(found: &Exponents) -> String {
             false => format!("  alignment index  {:.1e}", alignment.index),
         });
         if let Some(since) = alignment.since {
-            out.push_str(&format!(", parallel from t = {since:.0} on"));
+            out.push_str(&format!(", parallel from {over} = {since:.0} on"));
         }
         out.push('\n');
     }
@@ -154,7 +160,6 @@ pub fn spectra_text(
     names: &[String],
     spectra: &[Result<Spectrum, FlowError>],
 ) -> String {
-    let shown = |own: &Estimate| format!("{} (later half {})", shown(*own), later(*own));
     let mut out = format!("{title}\n");
     for (name, spectrum) in names.iter().zip(spectra) {
         let found = match spectrum {
@@ -165,16 +170,82 @@ pub fn spectra_text(
             }
         };
         out.push_str(&format!("{name}, t = {}\n", found.time));
-        for (index, exponent) in found.exponents.iter().enumerate() {
-            out.push_str(&format!("  λ{:<3} {}\n", index + 1, shown(exponent)));
-        }
-        let sum: f64 = found.exponents.iter().map(|exponent| exponent.mean).sum();
-        out.push_str(&format!("  sum  {sum:+.5}; mean divergence {}\n", shown(&found.divergence)));
-        if let Some(dimension) = found.kaplan_yorke() {
-            out.push_str(&format!("  dimension of Kaplan and Yorke {dimension:.3}\n"));
+        out.push_str(&spectrum_lines(found, "mean divergence"));
+    }
+    out
+}
+
+fn spectrum_lines(found: &Spectrum, volume: &str) -> String {
+    let shown = |own: &Estimate| format!("{} (later half {})", shown(*own), later(*own));
+    let mut out = String::new();
+    for (index, exponent) in found.exponents.iter().enumerate() {
+        out.push_str(&format!("  λ{:<3} {}\n", index + 1, shown(exponent)));
+    }
+    let sum: f64 = found.exponents.iter().map(|exponent| exponent.mean).sum();
+    out.push_str(&format!("  sum  {sum:+.5}; {volume} {}\n", shown(&found.divergence)));
+    if let Some(dimension) = found.kaplan_yorke() {
+        out.push_str(&format!("  dimension of Kaplan and Yorke {dimension:.3}\n"));
+    }
+    out
+}
+
+/// Name of the mean growth of volume under a map.
+const MAP_VOLUME: &str = "mean ln |det DΦ|";
+
+/// Renders the exponents of orbits of a map.
+pub fn map_text(
+    title: &str,
+    names: &[String],
+    found: &[Result<MapExponents, IterateError>],
+    spectrum: bool,
+) -> String {
+    let mut out = format!("{title}\n");
+    for (name, found) in names.iter().zip(found) {
+        match found {
+            Err(problem) => out.push_str(&format!("{name}: {problem}\n")),
+            Ok(found) if spectrum => {
+                out.push_str(&format!("{name}, n = {}\n", found.largest.time));
+                out.push_str(&spectrum_lines(&found.spectrum, MAP_VOLUME));
+            }
+            Ok(found) => {
+                out.push_str(&format!("{name}: {}\n", found.largest.character.name()));
+                out.push_str(&lines_over(&found.largest, "n", MAP_VOLUME));
+            }
         }
     }
     out
+}
+
+/// Renders the exponents of orbits of a map as JSON.
+pub fn map_json(
+    title: &str,
+    names: &[String],
+    found: &[Result<MapExponents, IterateError>],
+    spectrum: bool,
+) -> Result<String, serde_json::Error> {
+    let entry = |(name, found): (&String, &Result<MapExponents, IterateError>)| {
+        let mut entry = match found {
+            Ok(found) if spectrum => json!({
+                "exponents":
+                    found.spectrum.exponents.iter().copied().map(estimated).collect::<Vec<_>>(),
+                "volume": estimated(found.spectrum.divergence),
+                "kaplan_yorke": found.spectrum.kaplan_yorke(),
+            }),
+            Ok(found) => json!({
+                "class": found.largest.character.name(),
+                "largest": estimated(found.largest.largest),
+                "volume": estimated(found.largest.divergence),
+            }),
+            Err(problem) => json!({ "problem": problem.to_string() }),
+        };
+        entry["start"] = json!(name);
+        if let Ok(found) = found {
+            entry["iterates"] = json!(found.largest.time);
+        }
+        entry
+    };
+    let orbits: Vec<Value> = names.iter().zip(found).map(entry).collect();
+    serde_json::to_string_pretty(&json!({ "title": title, "orbits": orbits }))
 }
 
 /// Renders the spectra of motions as JSON.

@@ -4,6 +4,7 @@ mod basins;
 mod bodies;
 mod branches;
 mod grounds;
+mod held;
 mod iterates;
 mod keys;
 mod limits;

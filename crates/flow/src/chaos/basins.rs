@@ -5,6 +5,7 @@ use crate::chaos::late::{Late, LateMotions, LateSamples};
 use crate::chaos::shadow::{ShadowStart, Shadowed};
 use crate::error::FlowError;
 use crate::motion::columns::Columns;
+use crate::motion::conserved::Fixed;
 use crate::motion::lyapunov::{Estimate, Exponents};
 use crate::motion::start::{Start, fixed_parameters, two_sided};
 use crate::section::axis::{AxisMistake, range};
@@ -65,8 +66,8 @@ pub struct BasinRequest<'r> {
     pub axes: &'r [StateAxis; 2],
     /// State that gives the other components; starts are moved to the level.
     pub base: &'r [Rational],
-    /// Energy of the starts; by default each has that of its state.
-    pub energy: Option<&'r Rational>,
+    /// Functions whose values all starts share; by default each start has those of its state.
+    pub fixed: &'r [Fixed],
     /// Values by which sets are told apart.
     pub columns: &'r Columns,
     /// Time for which each motion is followed; the later half counts.
@@ -126,8 +127,7 @@ pub fn basins(
     let [across, up] = request.axes;
     let count = across.count * up.count;
     let order = Order::of(count);
-    let launches =
-        Launches { case, energy: request.energy, pad: None, seed: request.seed, index: 0 };
+    let launches = Launches { case, fixed: request.fixed, pad: None, seed: request.seed, index: 0 };
     let state = |place: usize| {
         let mut state = request.base.to_vec();
         for (axis, index) in [(across, place % across.count), (up, place / across.count)] {

@@ -176,17 +176,18 @@ fn take(
 ) {
     let piece = stepper.piece(lane);
     let beside = BESIDE * piece.length();
+    let beside_time = piece.duration(beside).hi;
     let spacing = time * (1.0 - LATE) / SAMPLES as f64;
     while running.rows.len() < SAMPLES {
         let (now, due) = (piece.begin(), due(time, running.rows.len()));
-        let after = (DoubleDouble::from_f64(due) - now).hi;
+        let after = piece.after(DoubleDouble::from_f64(due) - now).hi;
         if after.abs() > piece.length().abs() {
             return;
         }
         let state = piece.state(after);
         let own = row(DoubleDouble::from_f64(due), &state);
-        let next = row(DoubleDouble::from_f64(due + beside), &piece.state(after + beside));
-        let way = own.iter().zip(&next).map(|(x, y)| (y - x) / beside * spacing).collect();
+        let next = row(DoubleDouble::from_f64(due + beside_time), &piece.state(after + beside));
+        let way = own.iter().zip(&next).map(|(x, y)| (y - x) / beside_time * spacing).collect();
         running.ways.push(way);
         running.rows.push(own);
     }

@@ -114,6 +114,7 @@ impl<'r> Launcher<'r> {
                         Coordinate::L => at[0] = value.hi,
                         Coordinate::Z => at[1] = value.hi,
                         Coordinate::Energy => energy = value,
+                        Coordinate::Integral(_) => {}
                         Coordinate::Parameter { .. } => {}
                     }
                 }

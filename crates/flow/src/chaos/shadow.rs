@@ -193,7 +193,12 @@ impl<'w> Worker<'w> {
         };
         let record = Record::short(self.time).on_level(self.equations.rank);
         let end = DoubleDouble::from_f64(record.end().unwrap_or(self.time));
-        let distance = DISTANCE * size(state);
+        let size = match size(state) {
+            // A state that is exactly 0 has no size; where it goes has.
+            0.0 => self.size_after_a_step(state, loose),
+            size => size,
+        };
+        let distance = DISTANCE * size;
         let along = self.equations.level.along(state, loose, 0);
         let beside =
             state.iter().zip(&along).map(|(x, u)| *x + DoubleDouble::from_f64(distance * u));
@@ -206,6 +211,16 @@ impl<'w> Worker<'w> {
         }
         self.running[couple] =
             Some(Running { index, record, distance, volume: 0.0, told: ToldShare::default() });
+    }
+
+    /// Size of a state after a step; 1 if it rests.
+    fn size_after_a_step(&self, state: &[DoubleDouble], loose: &[DoubleDouble]) -> f64 {
+        let mut stepper = Stepper::<f64>::new(&self.equations.program, Accuracy::ROUGH);
+        stepper.start(0, &[state, loose].concat(), DoubleDouble::from_f64(self.time));
+        stepper.expand();
+        stepper.advance();
+        let size = size(&stepper.pairs(0)[..state.len()]);
+        if size > 0.0 && size.is_finite() { size } else { 1.0 }
     }
 
     /// Notes the contribution of the present steps to ∫ div v, by Gauss's rule with two points.

@@ -8,8 +8,8 @@
 //! Bᵀ(M - 1)B u + Bᵀv dT = -Bᵀ(φ_T(x) - x)     dE·B u = E₀ - E     ds·B u = -s  or  v·B u = 0
 //! ```
 //!
-//! by least squares; M is the derivative of the flow φ over the period T, E an energy that is kept,
-//! and s the function of the surface, if one is given.
+//! by least squares; M is the derivative of the flow φ over the period T, E an energy or integrals that
+//! are kept, and s the function of the surface, if one is given.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -18,6 +18,7 @@ use crate::closed::through::MeasuredNumber;
 use crate::closed::turns::turns;
 use crate::error::FlowError;
 use crate::motion::carry::carried;
+use crate::motion::conserved::Conserved;
 use crate::motion::recorded::program;
 use crate::motion::start::{LevelFunctions, Start, dot, level_basis};
 use crate::motion::variational::variational_program;
@@ -44,8 +45,8 @@ const DEGENERATE: f64 = 1e-11;
 pub(crate) struct Pins {
     /// Level functions of the model, then those that follow.
     pub functions: LevelFunctions,
-    /// Whether the energy follows.
-    pub has_energy: bool,
+    /// Energy and integrals that follow.
+    pub kept: Vec<Conserved>,
     /// Whether the function of a surface comes last.
     pub has_surface: bool,
 }
@@ -66,8 +67,10 @@ pub struct Cycle {
     pub is_supported: bool,
     /// Integral of the divergence on the level along the orbit.
     pub volume: MeasuredNumber,
-    /// Multipliers besides 1 along the orbit and 1 across the levels of the energy.
+    /// Multipliers besides 1 along the orbit and 1 across the levels of what is kept.
     pub multipliers: Vec<Multiplier>,
+    /// Integrals that are held, besides the energy.
+    pub integrals: Vec<Conserved>,
     /// Stability, where the errors allow a statement.
     pub kind: Option<CycleKind>,
 }
@@ -91,7 +94,10 @@ pub(crate) fn cycle(
     let (multipliers, kind) = search.multipliers(&float, &pair)?;
     let turns = turns(&search.field, &search.start.state, search.time, residual)?;
     let float_period = search.float_period;
+    let is_integral = |own: &&Conserved| matches!(own, Conserved::Integral { .. });
+    let integrals = pins.kept.iter().filter(is_integral).cloned().collect();
     Ok(Cycle {
+        integrals,
         start: search.start,
         period: MeasuredNumber::twice(float_period, search.time.hi),
         turns,
@@ -338,10 +344,10 @@ impl<'s> CycleSearch<'s> {
             basis.iter().map(along).collect()
         };
         let mut known = vec![tangent(&self.velocity())];
-        if self.pins.has_energy {
-            let gradients = self.pins.functions.at(&self.start.state).1;
-            let energy: Vec<f64> = gradients[self.level.len()].iter().map(|x| x.hi).collect();
-            known.push(tangent(&energy));
+        let gradients = self.pins.functions.at(&self.start.state).1;
+        for gradient in gradients.iter().skip(self.level.len()).take(self.pins.kept.len()) {
+            let gradient: Vec<f64> = gradient.iter().map(|x| x.hi).collect();
+            known.push(tangent(&gradient));
         }
         let matrix = |derivative: &Derivative| {
             DMatrix::from_fn(basis.len(), basis.len(), |row, column| {

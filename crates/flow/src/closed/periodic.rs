@@ -171,7 +171,8 @@ impl<'c> SectionMap<'c> {
             let (across, along) = (piece.output(0), piece.output(1));
             let end = |after: T| {
                 let state = piece.state(after);
-                End { rate: rate(&self.g0, &state, value(&across, after).1.leading()), state }
+                let slope = value(&across, after).1.leading() / piece.unit();
+                End { rate: rate(&self.g0, &state, slope), state }
             };
             let departure = departure.get_or_insert_with(|| end(T::ZERO));
             let doubt = || self.program.rounding::<T>(0, &stepper.pairs(0), 0.0);
@@ -182,7 +183,7 @@ impl<'c> SectionMap<'c> {
                 }
                 met += 1;
                 if met == crossings {
-                    let time = piece.begin() + after.pair();
+                    let time = piece.time(after);
                     let departure = departure.clone();
                     return Ok(Passage { departure, arrival: end(after), time });
                 }

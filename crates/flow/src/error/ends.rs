@@ -99,3 +99,9 @@ pub(super) fn too_short(time: f64, state: &[f64]) -> String {
         shown(state)
     )
 }
+
+/// Words for a motion that was stopped.
+pub(super) fn stopped_at(time: f64, state: &[f64]) -> String {
+    let parts: Vec<String> = state.iter().map(|x| format!("{x:?}")).collect();
+    format!("stopped at t = {time:?}, at the state [{}]", parts.join(", "))
+}

@@ -5,6 +5,7 @@
 //! ```
 
 use crate::error::FlowError;
+use crate::halt::Halt;
 use crate::motion::columns::Columns;
 use crate::motion::orbit::{Followed, MEASUREMENTS, Precision, Watch};
 use crate::motion::recorded::point;
@@ -50,6 +51,14 @@ pub enum IterateError {
         /// The last state, in words.
         place: String,
     },
+    /// The orbit was stopped from outside.
+    #[error("stopped after {}, at {place}", counted(*iterates))]
+    Stopped {
+        /// Number of iterates that were found.
+        iterates: u64,
+        /// The last state, in words.
+        place: String,
+    },
     /// A number is beyond the range of f64.
     #[error("the orbit escapes: after {}, at {place}, the next is too large for f64", counted(*iterates))]
     Escapes {
@@ -68,9 +77,9 @@ impl IterateError {
             IterateError::NoValue { iterates: 0, .. } => {
                 "choose another start, or other parameters"
             }
-            IterateError::NoValue { .. } | IterateError::Escapes { .. } => {
-                "choose another start, or fewer --iterates"
-            }
+            IterateError::NoValue { .. }
+            | IterateError::Escapes { .. }
+            | IterateError::Stopped { .. } => "choose another start, or fewer --iterates",
         }
     }
 }
@@ -132,6 +141,7 @@ fn one(
     let every = sampling.map_or(1, |own| own.every.max(1));
     let mut next = map.stepper(precision);
     let mut state = start.state.clone();
+    let halt = Halt::current();
     let mut measured = 0;
     for index in 0..=count {
         if let Some(row) = row.as_mut().filter(|_| index % every == 0) {
@@ -144,6 +154,9 @@ fn one(
         }
         if index % TOLD_EVERY == 0 {
             reach(index as f64 / count.max(1) as f64);
+            if halt.is_raised() && index < count {
+                return Err(IterateError::Stopped { iterates: index, place: map.place(&state) });
+            }
         }
         if index < count {
             state = next(&state).map_err(|fault| map.problem(&fault, index, &state))?;
@@ -153,19 +166,21 @@ fn one(
 }
 
 /// Reason why a state has no image.
-enum Fault {
+pub(super) enum Fault {
     /// The formula with this index has no value.
     Formula(usize),
     Overflow,
 }
 
 /// Function from a state to its image.
-type Next<'m> = Box<dyn FnMut(&[DoubleDouble]) -> Result<Vec<DoubleDouble>, Fault> + 'm>;
+pub(super) type Next<'m> = Box<dyn FnMut(&[DoubleDouble]) -> Result<Vec<DoubleDouble>, Fault> + 'm>;
 
 /// A map with fixed parameters on a tape: its images, and the arguments of operations as written that
 /// do not exist everywhere.
-struct RecordedMap {
+pub(super) struct RecordedMap {
     tape: Tape,
+    /// Number of components of the state and of the tangent vectors.
+    components: usize,
     names: Vec<String>,
     formulas: Vec<String>,
     /// Domain of each argument, with the index of its formula.
@@ -174,28 +189,44 @@ struct RecordedMap {
 
 impl RecordedMap {
     fn new(model: &Model, start: &Start) -> Result<Self, FlowError> {
+        Self::with_vectors(model, start, 0)
+    }
+
+    /// Records a map and its derivative along so many vectors.
+    pub(super) fn with_vectors(
+        model: &Model,
+        start: &Start,
+        vectors: usize,
+    ) -> Result<Self, FlowError> {
         let dimension = model.dimension();
+        let components = dimension * (1 + vectors);
         let own = model.equations_of_motion();
         let all: Vec<_> = model.parameter_formulas_of(&own).into_iter().chain(own).collect();
-        let (graph, (images, written)) = record(dimension, |state| {
+        let (graph, (images, written)) = record(components, |inputs| {
+            let (state, vectors) = inputs.split_at(dimension);
             let phase = point(model, &start.parameters, state);
             let written: Vec<Vec<Expr>> =
                 all.iter().map(|formula| phase.literal_values([*formula])).collect();
-            (phase.field().to_vec(), written)
+            let mut images = phase.field().to_vec();
+            for vector in vectors.chunks(dimension.max(1)) {
+                images.extend(phase.lift(vector).field().iter().map(|image| image.eps));
+            }
+            (images, written)
         })?;
-        if graph.inputs() > dimension {
+        if graph.inputs() > components {
             return Err(FlowError::Antiderivative);
         }
         let (guards, arguments) = guards(&graph, &images, &written);
         Ok(Self {
             tape: Tape::new(&graph, &[images, arguments].concat()),
+            components,
             names: (0..dimension).map(|k| model.component_name(k)).collect(),
             formulas: all.iter().map(|formula| formula.text().trim().to_string()).collect(),
             guards,
         })
     }
 
-    fn stepper(&self, precision: Precision) -> Next<'_> {
+    pub(super) fn stepper(&self, precision: Precision) -> Next<'_> {
         match precision {
             Precision::Float => {
                 let mut evaluator = Evaluator::new(&self.tape, Float::<1>);
@@ -220,7 +251,7 @@ impl RecordedMap {
         values: impl Iterator<Item = DoubleDouble>,
     ) -> Result<Vec<DoubleDouble>, Fault> {
         let mut image: Vec<DoubleDouble> = values.collect();
-        let arguments = image.split_off(self.names.len());
+        let arguments = image.split_off(self.components);
         let broken = self.guards.iter().zip(&arguments).find(|((domain, _), argument)| {
             argument.hi.is_finite() && !domain.contains(argument.hi)
         });
@@ -231,11 +262,21 @@ impl RecordedMap {
         }
     }
 
-    fn problem(&self, fault: &Fault, iterates: u64, state: &[DoubleDouble]) -> IterateError {
+    /// A state in words.
+    fn place(&self, state: &[DoubleDouble]) -> String {
         // −0 + 0 is 0.
         let parts =
             self.names.iter().zip(state).map(|(name, x)| format!("{name} = {:?}", x.hi + 0.0));
-        let place = parts.collect::<Vec<_>>().join(", ");
+        parts.collect::<Vec<_>>().join(", ")
+    }
+
+    pub(super) fn problem(
+        &self,
+        fault: &Fault,
+        iterates: u64,
+        state: &[DoubleDouble],
+    ) -> IterateError {
+        let place = self.place(state);
         match fault {
             Fault::Formula(index) => {
                 let formula = self.formulas.get(*index).cloned().unwrap_or_default();

@@ -310,9 +310,14 @@ impl Record {
 
     /// Ends a block, at which ∫ div v is `volume`.
     pub fn finish_block(&mut self, volume: f64) {
+        self.finish_block_of(self.block(), volume);
+    }
+
+    /// The same with a block of this length.
+    pub fn finish_block_of(&mut self, length: f64, volume: f64) {
         let (expanded, before) = self.at_last_end;
-        self.growth.push((self.expanded - expanded) / self.block().abs());
-        self.volume.push((volume - before) / self.block());
+        self.growth.push((self.expanded - expanded) / length.abs());
+        self.volume.push((volume - before) / length);
         self.at_last_end = (self.expanded, volume);
     }
 
@@ -336,13 +341,14 @@ impl Record {
         // The vectors align like e^(-λt), where the second exponent is 0.
         let expected = libm::exp(-largest.mean * time / 2.0).max(PARALLEL);
         let is_aligned = self.alignment.is_none_or(|found| found.index <= expected);
-        if largest.mean <= least || largest.later <= least || !is_aligned {
+        if largest.mean <= least || largest.later <= least {
             return Character::Regular;
         }
+        // Equal exponents, as at a focus, never align vectors.
         if let Some(without_chaos) = self.extent.character() {
             return without_chaos;
         }
-        if self.is_on_surface {
+        if self.is_on_surface || !is_aligned {
             return Character::Regular;
         }
         let keeps_sign = divergence.mean * divergence.later > 0.0

@@ -2,10 +2,12 @@
 
 pub(crate) mod carry;
 pub(crate) mod columns;
+pub(crate) mod conserved;
 pub(crate) mod iterates;
 pub(crate) mod kept;
 pub(crate) mod lexicon;
 pub(crate) mod lyapunov;
+pub(crate) mod map_exponents;
 pub(crate) mod one_sided;
 pub(crate) mod open;
 pub(crate) mod orbit;

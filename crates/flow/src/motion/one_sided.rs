@@ -152,19 +152,26 @@ impl<T: SeriesNumber<One = T>> Walk<'_, T> {
     /// Follows a free phase. Returns whether the motion ends in it.
     fn fly(&mut self, watcher: &mut impl Watcher<T>) -> Result<bool, FlowError> {
         self.free.start(0, &self.state, self.until - self.now);
-        let mut sides = Sides::on(true);
+        let leaves = self.events.last().is_some_and(|event| event.kind == Contact::Leaves);
         loop {
+            // A free motion has not come below 0 yet, nor have values that are 0 to rounding.
+            let mut sides = Sides::on(true);
             self.free.expand();
             self.free.ends(0);
             self.free.check(0)?;
             let piece = self.free.piece(0);
-            let polynomial = piece.output(0);
-            let at = |after: T| self.now + piece.begin() + after.pair();
+            let mut polynomial = piece.output(0);
+            let at = |after: T| self.now + piece.time(after);
             let doubt = || self.phases.free.rounding::<T>(0, &self.free.pairs(0), 0.0);
             // What has come below 0 without an event, as from a touch, is in contact.
             let limit = ROUNDINGS * T::EPSILON * size(&polynomial, piece.length());
             let is_below = polynomial[0].leading() < -limit - DOUBTS * doubt();
             let below = (self.free.steps(0) > 0 && is_below).then_some(T::ZERO);
+            // What leaves is at 0, up to the error of the place of its contact.
+            let is_at_0 = polynomial[0].leading() < 0.0 && !is_below;
+            if is_at_0 || leaves && self.free.steps(0) == 0 {
+                polynomial[0] = T::ZERO;
+            }
             let events = sides.events(&polynomial, piece.length(), doubt);
             let begins = below.map(|after| Event::Crossing { after, rising: false });
             for event in begins.into_iter().chain(events) {
@@ -191,7 +198,6 @@ impl<T: SeriesNumber<One = T>> Walk<'_, T> {
                     watcher.state(self.now, &self.state);
                     return Ok(false);
                 }
-                sides = Sides::on(true);
             }
             watcher.piece(self.now + piece.begin(), &piece, piece.length());
             self.free.advance();
@@ -207,8 +213,8 @@ impl<T: SeriesNumber<One = T>> Walk<'_, T> {
     /// Follows a phase of contact. Returns whether the motion ends in it.
     fn touch(&mut self, watcher: &mut impl Watcher<T>) -> Result<bool, FlowError> {
         self.contact.start(0, &self.state, self.until - self.now);
-        let mut sides = Sides::on(true);
         loop {
+            let mut sides = Sides::on(true);
             self.contact.expand();
             self.contact.ends(0);
             self.contact.check(0)?;
@@ -222,12 +228,10 @@ impl<T: SeriesNumber<One = T>> Walk<'_, T> {
                 let Event::Crossing { after, rising: false } = event else { continue };
                 // A reaction that only touches 0 holds the body.
                 if !is_deep(&polynomial, after, piece.length(), doubt()) {
-                    sides = Sides::on(true);
                     continue;
                 }
                 watcher.piece(self.now + piece.begin(), &piece, after);
-                (self.now, self.state) =
-                    (self.now + piece.begin() + after.pair(), piece.state(after));
+                (self.now, self.state) = (self.now + piece.time(after), piece.state(after));
                 let (time, state) = (self.now, self.state.clone());
                 self.events.push(ContactEvent { kind: Contact::Leaves, time, state });
                 self.steps += self.contact.steps(0) + 1;

@@ -4,7 +4,7 @@ use crate::error::FlowError;
 use crate::motion::one_sided::{ContactEvent, follow};
 use crate::motion::recorded::{point, program};
 use crate::motion::samples::Samples;
-use crate::motion::start::Start;
+use crate::motion::start::{LevelFunctions, Start};
 use crate::taylor::number::SeriesNumber;
 use crate::taylor::stepper::{Accuracy, MotionPiece, Stepper};
 use liouville::case::{Case, Expect};
@@ -159,7 +159,10 @@ fn orbit_over<T: SeriesNumber<One = T>>(
             stepper.start(0, &start.state, time);
             while !stepper.is_done(0) {
                 stepper.expand();
-                stepper.check(0)?;
+                stepper.check(0).map_err(|error| match error {
+                    FlowError::Stopped => stopped(&stepper),
+                    error => error,
+                })?;
                 let piece = stepper.piece(0);
                 Watcher::<T>::piece(&mut watcher, piece.begin(), &piece, piece.length());
                 stepper.advance();
@@ -175,6 +178,12 @@ fn orbit_over<T: SeriesNumber<One = T>>(
     watcher.samples.end(time, &end);
     let (order, followed) = (accuracy.order, watcher.watch.followed);
     Ok(Orbit { start, time, end, steps, order, followed, events })
+}
+
+/// Error of a motion that is stopped from outside.
+fn stopped<T: SeriesNumber>(stepper: &Stepper<T>) -> FlowError {
+    let state = stepper.pairs(0).iter().map(|x| x.hi).collect();
+    FlowError::StoppedAt { time: stepper.time(0).hi, state }
 }
 
 /// Followed quantities, recorded on a tape.
@@ -274,19 +283,28 @@ fn values(tape: &Tape, state: &[DoubleDouble]) -> Vec<DoubleDouble> {
     evaluator.outputs().copied().collect()
 }
 
-/// Relative change of the energy from a start to another state; 0 for a system without energy.
+/// Part of the size of its terms below which an energy counts as 0.
+const SMALL: f64 = 1e-6;
+
+/// Change of the energy from a start to another state, relative to the energy, or to the size of its terms
+/// where it is 0 beside them; 0 for a system without energy.
 pub(crate) fn energy_drift(
     model: &Model,
     start: &Start,
     end: &[DoubleDouble],
 ) -> Result<f64, FlowError> {
-    let (graph, energy) = record(model.dimension(), |state| {
-        QuantitySource::Energy.values(&point(model, &start.parameters, state))
+    let functions = LevelFunctions::with(model, &start.parameters, &|phase| {
+        model.system.energy(phase).into_iter().collect()
     })?;
-    let tape = Tape::new(&graph, &energy);
-    let both = (values(&tape, &start.state), values(&tape, end));
-    let (Some(begin), Some(end)) = (both.0.first(), both.1.first()) else { return Ok(0.0) };
-    Ok((*end - *begin).hi.abs() / begin.hi.abs())
+    let place = model.level.len();
+    let (values, gradients) = functions.at(&start.state);
+    let (Some(begin), Some(gradient)) = (values.get(place), gradients.get(place)) else {
+        return Ok(0.0);
+    };
+    let parts = gradient.iter().zip(&start.state).map(|(slope, x)| (slope.hi * x.hi).abs());
+    let size = parts.sum::<f64>();
+    let scale = if begin.hi.abs() < SMALL * size { size } else { begin.hi.abs() };
+    Ok((functions.at(end).0[place] - *begin).hi.abs() / scale)
 }
 
 /// Lists the level functions, the energy, the claimed integrals, and formulas that have to drift.

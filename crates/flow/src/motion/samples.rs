@@ -18,6 +18,8 @@ pub struct Sampling<'s> {
     pub columns: &'s Columns,
     /// Interval Δ, above 0 also backwards in time.
     pub every: Rational,
+    /// Whether samples are taken within steps too, as a picture needs them where a motion is fast.
+    pub with_steps: bool,
 }
 
 /// A motion with its samples.
@@ -65,7 +67,7 @@ fn one(
         Err(problem) => return failed(problem),
     };
     let mut samples = match sampling.zip(gauge.as_ref()) {
-        Some((sampling, gauge)) => Samples::new(gauge, &sampling.every, time),
+        Some((sampling, gauge)) => Samples::new(gauge, sampling, time),
         None => Samples::nothing(),
     };
     let until = DoubleDouble::from_rational(time);
@@ -73,31 +75,40 @@ fn one(
     SampledOrbit { orbit, rows: samples.rows }
 }
 
+/// Number of samples within a step, halved after each of so many of them, down to 1.
+const PARTS: u32 = 8;
+const MANY: usize = 24_000;
+
 /// Function from a time and a state to a row.
 type Row<'s> = Box<dyn FnMut(DoubleDouble, &[DoubleDouble]) -> Vec<DoubleDouble> + 's>;
 
 /// Samples taken so far.
 pub(crate) struct Samples<'s> {
     row: Option<Row<'s>>,
-    /// Interval, negative backwards in time.
+    /// Interval, negative backwards in time, and number of samples at its multiples.
     every: Rational,
+    count: i64,
+    /// Number of samples in the present step; 0 for none within steps.
+    parts: u32,
     rows: Vec<Vec<DoubleDouble>>,
 }
 
 impl<'s> Samples<'s> {
     /// Takes no samples.
     pub fn nothing() -> Self {
-        Self { row: None, every: Rational::from(0), rows: Vec::new() }
+        Self { row: None, every: Rational::from(0), count: 0, parts: 0, rows: Vec::new() }
     }
 
-    fn new(gauge: &'s Gauge, every: &Rational, time: &Rational) -> Self {
+    fn new(gauge: &'s Gauge, sampling: &Sampling<'_>, time: &Rational) -> Self {
         let sign = Rational::from(if time.to_f64().0 < 0.0 { -1 } else { 1 });
-        Self { row: Some(Box::new(gauge.rows())), every: every * &sign, rows: Vec::new() }
+        let every = &sampling.every * &sign;
+        let parts = if sampling.with_steps { PARTS } else { 0 };
+        Self { row: Some(Box::new(gauge.rows())), every, count: 0, parts, rows: Vec::new() }
     }
 
     /// Time of the next sample, rounded once.
     fn next(&self) -> DoubleDouble {
-        DoubleDouble::from_rational(&(&self.every * &Rational::from(self.rows.len() as i64)))
+        DoubleDouble::from_rational(&(&self.every * &Rational::from(self.count)))
     }
 
     /// Takes the samples of a piece of the motion that begins at a time.
@@ -109,20 +120,37 @@ impl<'s> Samples<'s> {
     ) {
         let Some(mut row) = self.row.take() else { return };
         let forwards = length.leading() >= 0.0;
+        let is_fast = self.is_fast(piece.duration(length));
         loop {
             let next = self.next();
-            let after = next - begin;
+            let after = piece.after(next - begin);
             let beyond = after - length.pair();
             if beyond.hi != 0.0 && (beyond.hi > 0.0) == forwards {
                 break;
             }
-            self.rows.push(row(next, &piece.state(T::split(after).0)));
+            if !is_fast {
+                self.rows.push(row(next, &piece.state(T::split(after).0)));
+            }
+            self.count += 1;
             // Steps of length 0 do not move on.
             if length.leading() == 0.0 {
                 break;
             }
         }
+        for part in (1..=self.parts).filter(|_| is_fast) {
+            let after = length * T::float(f64::from(part) / f64::from(self.parts));
+            self.rows.push(row(begin + piece.duration(after), &piece.state(after)));
+        }
+        if self.parts > 0 {
+            self.parts = (PARTS >> (self.rows.len() / MANY).min(31)).max(1);
+        }
         self.row = Some(row);
+    }
+
+    /// Whether samples within a piece are nearer to each other than those at intervals.
+    fn is_fast(&self, duration: DoubleDouble) -> bool {
+        let least = duration.hi.abs() / f64::from(self.parts.max(1));
+        self.parts > 0 && duration.hi != 0.0 && least < self.every.to_f64().0.abs()
     }
 
     /// Takes the sample at the end, where one is due.

@@ -11,7 +11,6 @@ use crate::motion::recorded::extended_program;
 use crate::motion::start::{LevelFunctions, Start};
 use crate::taylor::batch::{Lockstep, MOTION_LANES, Queue, in_batches};
 use crate::taylor::lanes::Lanes;
-use crate::taylor::level::STRIDE;
 use crate::taylor::number::SeriesNumber;
 use crate::taylor::program::TaylorProgram;
 use crate::taylor::stepper::{Accuracy, Stepper};
@@ -21,6 +20,8 @@ use liouville::mechanics::calculus::DualPoint;
 use liouville::number::double_double::DoubleDouble;
 use liouville::number::rational::Rational;
 
+/// Number of steps after which vectors are made tangent to the level again.
+const STRIDE: u64 = 8;
 /// Number of tangent vectors; the alignment index takes two.
 const VECTORS: usize = 2;
 

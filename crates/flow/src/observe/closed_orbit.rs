@@ -4,7 +4,8 @@ use super::ground::Ground;
 use super::judgement::MotionJudgement;
 use super::scene::FollowedCase;
 use crate::{
-    Cycle, Enclosure, FlowError, MeasuredNumber, Obstacle, ProvedOrbit, Request, Start, prove,
+    Conserved, Cycle, Enclosure, FlowError, MeasuredNumber, Obstacle, ProvedOrbit, Request, Start,
+    prove,
 };
 use liouville::case::Case;
 use liouville::claim::motion::{Change, ClosedOrbit, Neighbourhood, Stability, Stated};
@@ -52,7 +53,7 @@ pub(super) fn exclusion(
     energy: Option<&Rational>,
     options: &Options,
 ) -> Option<String> {
-    let ground = Ground::near(case, start.clone(), period, energy, options).ok()?;
+    let ground = Ground::near(case, (start.clone(), Vec::new()), period, energy, options).ok()?;
     let found = ground.enclosed(prove).ok()?;
     let changes = found.volume.is_positive() || (-found.volume).is_positive();
     changes.then(|| format!("proved: {}", theorem(&found, true, stability(&found), &[])))
@@ -67,7 +68,12 @@ pub fn theorem_about(
     options: &Options,
 ) -> Result<String, String> {
     let period = cycle.period.value / f64::from(cycle.turns);
-    let ground = Ground::near(case, cycle.start.clone(), period, energy, options)?;
+    let formula = |own: &Conserved| match own {
+        Conserved::Integral { formula, .. } => Some(formula.clone()),
+        Conserved::Energy => None,
+    };
+    let integrals = cycle.integrals.iter().filter_map(formula).collect();
+    let ground = Ground::near(case, (cycle.start.clone(), integrals), period, energy, options)?;
     let found = ground.enclosed(prove)?;
     if found.moved > NEAR {
         let far = printed_bound(found.moved);

@@ -57,7 +57,7 @@ pub struct Ground<'g> {
     period: f64,
     keeps_energy: bool,
     energy: Option<&'g Rational>,
-    integrals: &'g [Formula],
+    integrals: Cow<'g, [Formula]>,
     loose: Vec<Loose>,
     wants_multipliers: bool,
 }
@@ -91,16 +91,16 @@ impl<'g> Ground<'g> {
             period: asked.period,
             keeps_energy,
             energy,
-            integrals: asked.integrals,
+            integrals: Cow::Borrowed(asked.integrals),
             loose,
             wants_multipliers: asked.wants_multipliers,
         }))
     }
 
-    /// Grounds of an orbit near a start, with its multipliers.
+    /// Grounds of an orbit near a start that keeps these integrals, with its multipliers.
     pub fn near(
         case: &'g Case,
-        start: Start,
+        (start, integrals): (Start, Vec<Formula>),
         period: f64,
         energy: Option<&'g Rational>,
         options: &Options,
@@ -112,9 +112,9 @@ impl<'g> Ground<'g> {
             case: Cow::Borrowed(case),
             start,
             period,
-            keeps_energy: kept(case, &[], options)?,
+            keeps_energy: kept(case, &integrals, options)?,
             energy,
-            integrals: &[],
+            integrals: Cow::Owned(integrals),
             loose: Vec::new(),
             wants_multipliers: true,
         })

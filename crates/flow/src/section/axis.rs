@@ -1,5 +1,6 @@
 //! Axes of a plane of motions: quantities that vary, by their names in a case.
 
+use crate::motion::conserved::Conserved;
 use crate::section::andoyer::applies;
 use crate::section::coordinate::{ChartAxis, Coordinate};
 use liouville::case::{Case, number};
@@ -101,19 +102,32 @@ impl Coordinate {
     }
 
     /// Coordinate of a name that varies along a branch of closed orbits: a parameter, a component of
-    /// one, or the energy; also returns the canonical name.
+    /// one, the energy, or a proved integral; also returns the canonical name.
     pub fn of_branch(case: &Case, name: &str) -> Result<(String, Self), AxisMistake> {
-        let help = match parameters(case).as_slice() {
-            [] if case.model.system.has_energy() => {
-                "vary energy: the case has no parameters".to_string()
+        let names = parameters(case);
+        let energy = case.model.system.has_energy().then(|| "energy".to_string());
+        let integrals = Conserved::claimed(case).map(|(_, own)| own.name().to_string());
+        let kept: Vec<String> = energy.into_iter().chain(integrals).collect();
+        let help = match (names.as_slice(), kept.split_last()) {
+            ([], None) => "declare what varies in [parameters], as a = \"0.5..2\"".to_string(),
+            ([], Some((only, []))) => format!("vary {only}: the case has no parameters"),
+            (names, None) => format!("vary {}", names.join(", ")),
+            (names, Some((last, others))) => {
+                format!("vary {}, or {last}", [names, others].concat().join(", "))
             }
-            [] => "declare what varies in [parameters], as a = \"0.5..2\"".to_string(),
-            names if case.model.system.has_energy() => {
-                format!("vary {}, or energy", names.join(", "))
-            }
-            names => format!("vary {}", names.join(", ")),
         };
-        match Self::varying(case, name, &help)? {
+        let found = match Self::varying(case, name, &help) {
+            Err(mistake) => match Conserved::named(case, name) {
+                Ok(Some(index)) => return Ok((name.to_string(), Coordinate::Integral(index))),
+                // Of a claimed integral the reason counts.
+                Err(reason) if Conserved::claimed(case).any(|(_, own)| own.name() == name) => {
+                    return Err(reason);
+                }
+                _ => return Err(mistake),
+            },
+            Ok(found) => found,
+        };
+        match found {
             (name, Coordinate::L | Coordinate::Z) => {
                 let message = format!("`{name}` is a coordinate of the section");
                 Err(AxisMistake::new(&message, &help))

@@ -21,6 +21,8 @@ pub enum Coordinate {
     Z,
     /// Energy of the start on the section.
     Energy,
+    /// Value of the integral of the claim with this index.
+    Integral(usize),
 }
 
 impl Coordinate {

@@ -264,7 +264,7 @@ impl<P> Running<P> {
         self.counted += 1;
         self.last_met = (steps, self.track.others);
         if self.counted > task.skip {
-            let time = piece.begin() + DoubleDouble::from_f64(after);
+            let time = piece.time(after);
             let at = observe(time, &piece.state(after));
             self.track.crossings.push(Met { at, time: time.hi, rising });
         }

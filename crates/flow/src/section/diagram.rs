@@ -5,6 +5,7 @@ use liouville::mechanics::{ParameterOrigin, components};
 use liouville::number::rational::Rational;
 
 use crate::error::FlowError;
+use crate::motion::conserved::{Conserved, Fixed};
 use crate::motion::start::{drawn, fixed_parameters};
 use crate::section::coordinate::{ChartAxis, Coordinate};
 use crate::section::launch::{Begin, Launches, Launchpad};
@@ -34,8 +35,8 @@ pub enum DiagramSection<'r> {
         request: &'r SurfaceRequest<'r>,
         /// Beginnings of the motions.
         begins: &'r [Begin],
-        /// Energy of the starts; by default each has that of its state.
-        energy: Option<&'r Rational>,
+        /// Functions whose values all starts share; by default each start has those of its state.
+        fixed: &'r [Fixed],
     },
 }
 
@@ -63,8 +64,8 @@ pub fn diagram(
         let fixed = fixed(case, &parameters, request.axis.coordinate, &value);
         let found = fixed.ok_or(FlowError::NoStart).and_then(|case| match request.section {
             DiagramSection::Andoyer(own) => request.through_angle(&case, own, &value),
-            DiagramSection::Surface { request: own, energy, .. } => {
-                request.through_surface(&case, own, (&begins, energy), &value)
+            DiagramSection::Surface { request: own, fixed, .. } => {
+                request.through_surface(&case, own, (&begins, fixed), &value)
             }
         });
         progress(1.0);
@@ -110,7 +111,7 @@ impl DiagramRequest<'_> {
             Coordinate::Energy => request.energy = value.clone(),
             Coordinate::L => request.starts.iter_mut().for_each(|at| at[0] = value.to_f64().0),
             Coordinate::Z => request.starts.iter_mut().for_each(|at| at[1] = value.to_f64().0),
-            Coordinate::Parameter { .. } => {}
+            Coordinate::Parameter { .. } | Coordinate::Integral(_) => {}
         }
         let orbits = section(case, &request, 1, &|_| {})?.into_iter();
         let orbit = |orbit: SectionOrbit| DiagramOrbit {
@@ -124,16 +125,17 @@ impl DiagramRequest<'_> {
         &self,
         case: &Case,
         own: &SurfaceRequest<'_>,
-        (begins, energy): (&[Begin], Option<&Rational>),
+        (begins, fixed): (&[Begin], &[Fixed]),
         value: &Rational,
     ) -> Result<Vec<DiagramOrbit>, FlowError> {
         let (surface, axes) = (own.surface.of(case), own.axes.of(case));
-        let energy = match self.axis.coordinate {
-            Coordinate::Energy => Some(value),
-            _ => energy,
-        };
+        let mut fixed = fixed.to_vec();
+        if self.axis.coordinate == Coordinate::Energy {
+            fixed.retain(|own| !matches!(own.function, Conserved::Energy));
+            fixed.push(Fixed::energy(value.clone()));
+        }
         let pad = Launchpad { surface: &surface, axes: &axes, direction: own.direction };
-        let launches = Launches { case, energy, pad: Some(pad), seed: self.seed, index: 0 };
+        let launches = Launches { case, fixed: &fixed, pad: Some(pad), seed: self.seed, index: 0 };
         let starts: Vec<_> = begins.iter().map(|begin| launches.start(begin)).collect();
         let request = SurfaceRequest { surface: &surface, axes: &axes, ..*own };
         let orbits = surface_section(case, &request, &starts, 1, &|_| {})?.into_iter();

@@ -4,6 +4,7 @@ use num_dual::Dual;
 
 use crate::error::FlowError;
 use crate::motion::columns::Columns;
+use crate::motion::conserved::{Conserved, Fixed};
 use crate::motion::recorded::point;
 use crate::motion::start::{LevelFunctions, Start, drawn};
 use crate::section::surface::CrossingSurface;
@@ -41,12 +42,12 @@ pub struct Launchpad<'l> {
     pub direction: Direction,
 }
 
-/// Starts of a case: on its level, and at an energy if one is given.
+/// Starts of a case: on its level, and with the given values of functions that motions keep.
 pub struct Launches<'l> {
     /// Case whose motions start.
     pub case: &'l Case,
-    /// Energy of all starts; by default each has that of its state.
-    pub energy: Option<&'l Rational>,
+    /// Functions whose values all starts share; by default each start has those of its state.
+    pub fixed: &'l [Fixed],
     /// Surface for starts by the values of axes.
     pub pad: Option<Launchpad<'l>>,
     /// Seed of the drawn states, and of the free parameters.
@@ -71,35 +72,45 @@ impl Launches<'_> {
             }
         };
         let model = &self.case.model;
-        if self.energy.is_none() {
+        if self.fixed.is_empty() {
             let state = state.iter().map(DoubleDouble::from_rational).collect();
             return Start::near(model, parameters, state);
         }
         let conditions = self.conditions(model, &parameters, &|_| Vec::new())?;
-        moved(&conditions, parameters, &state).map_err(|error| self.of_energy(error))
+        moved(&conditions, parameters, &state).map_err(|error| self.out_of_reach(error))
     }
 
-    /// The error for a start that is not found, with the energies that there are if one is wanted.
-    fn of_energy(&self, error: FlowError) -> FlowError {
+    /// The error for a start that is not found, with the values that there are if one is wanted.
+    fn out_of_reach(&self, error: FlowError) -> FlowError {
         const DRAWN: u64 = 64;
-        let (FlowError::NoStart, Some(energy)) = (&error, self.energy) else { return error };
-        let own = |index| {
-            let (parameters, state) = drawn(self.case, self.seed, index).ok()?;
-            let [parameters, state] =
-                [parameters, state].map(|own| own.iter().map(|x| x.to_f64().0).collect::<Vec<_>>());
-            let phase = Phase::new(&self.case.model, &parameters, &state);
-            self.case.model.system.energy(&phase).filter(|energy| energy.is_finite())
+        if error != FlowError::NoStart {
+            return error;
+        }
+        let range = |fixed: &Fixed| {
+            let own = |index| {
+                let (parameters, state) = drawn(self.case, self.seed, index).ok()?;
+                fixed.at(&self.case.model, &parameters, &state)
+            };
+            let all: Vec<f64> = (0..DRAWN).filter_map(own).collect();
+            let (low, high) =
+                (all.iter().copied().reduce(f64::min), all.iter().copied().reduce(f64::max));
+            Some([low?, high?])
         };
-        let all: Vec<f64> = (0..DRAWN).filter_map(own).collect();
-        let (low, high) =
-            (all.iter().copied().reduce(f64::min), all.iter().copied().reduce(f64::max));
-        match (low, high) {
-            (Some(low), Some(high)) => FlowError::NoEnergyState {
-                energy: energy.to_string(),
+        let ranges: Vec<(usize, f64, f64)> = (0..self.fixed.len())
+            .filter_map(|place| range(&self.fixed[place]).map(|[low, high]| (place, low, high)))
+            .collect();
+        let is_outside = |(place, low, high): &&(usize, f64, f64)| {
+            !(*low..=*high).contains(&self.fixed[*place].value.to_f64().0)
+        };
+        let found = ranges.iter().find(is_outside).or(ranges.first());
+        match found.map(|(place, low, high)| (&self.fixed[*place], low, high)) {
+            Some((fixed, low, high)) => FlowError::NoValueState {
+                name: fixed.function.name().to_string(),
+                value: fixed.value.to_string(),
                 low: format!("{low:.4}"),
                 high: format!("{high:.4}"),
             },
-            _ => error,
+            None => error,
         }
     }
 
@@ -111,25 +122,27 @@ impl Launches<'_> {
         let parameters = drawn(self.case, self.seed, self.index)?.0;
         let conditions = self.conditions(&self.case.model, &parameters, &|_| Vec::new())?;
         let start = |state: Vec<Rational>| {
-            moved(&conditions, parameters.clone(), &state).map_err(|error| self.of_energy(error))
+            moved(&conditions, parameters.clone(), &state).map_err(|error| self.out_of_reach(error))
         };
         Ok(states.into_iter().map(start).collect())
     }
 
-    /// Records the level, the energy if one is given, and further functions that vanish.
+    /// Records the level, the functions with given values, and further functions that vanish.
     fn conditions(
         &self,
         model: &Model,
         parameters: &[Rational],
         further: &dyn Fn(&Lifted<'_>) -> Vec<Dual<Expr>>,
     ) -> Result<LevelFunctions, FlowError> {
-        if self.energy.is_some() && !model.system.has_energy() {
+        let is_energy = |own: &Fixed| matches!(own.function, Conserved::Energy);
+        if self.fixed.iter().any(is_energy) && !model.system.has_energy() {
             return Err(FlowError::NoEnergy);
         }
         LevelFunctions::with(model, parameters, &|phase| {
-            let energy = self.energy.zip(model.system.energy(phase));
-            let mut all: Vec<_> =
-                energy.map(|(given, own)| own - Dual::rational(given)).into_iter().collect();
+            let own = self.fixed.iter().filter_map(|fixed| {
+                Some(fixed.function.value(phase)? - Dual::rational(&fixed.value))
+            });
+            let mut all: Vec<_> = own.collect();
             all.extend(further(phase));
             all
         })

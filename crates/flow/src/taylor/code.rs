@@ -163,6 +163,8 @@ pub(crate) enum PlacedRule<T> {
     },
     /// The constant of the operation, which is the sign of x.
     Sign(Place),
+    /// 1 where |x| is below half of the number, and 0 elsewhere.
+    Near(Place, f64),
 }
 
 impl<T> PlacedRule<T> {
@@ -175,7 +177,10 @@ impl<T> PlacedRule<T> {
                 | PlacedRule::Ln(_)
                 | PlacedRule::Power { .. }
         );
-        let is_form = matches!(self, PlacedRule::Sum | PlacedRule::Theta | PlacedRule::Sign(_));
+        let is_form = matches!(
+            self,
+            PlacedRule::Sum | PlacedRule::Theta | PlacedRule::Sign(_) | PlacedRule::Near(..)
+        );
         !is_form && has_poles != is_entire
     }
 
@@ -332,6 +337,7 @@ impl<T: SeriesNumber> BoundProgram<T> {
                 (OrderEffect::Divides, PlacedRule::Saturating { function, x, slope })
             }
             Rule::Sign(x) => (OrderEffect::Free, PlacedRule::Sign(at(x))),
+            Rule::Near(x, reach) => (OrderEffect::Free, PlacedRule::Near(at(x), *reach)),
             Rule::Power { x, exponent } => {
                 let factor = T::rational(exponent);
                 (

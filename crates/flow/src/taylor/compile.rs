@@ -1,6 +1,7 @@
 //! Compilation of a graph to a Taylor program: gathers sums of products and folds constants
 //! exactly.
 
+mod limits;
 mod simpler;
 
 use crate::error::FlowError;
@@ -73,7 +74,13 @@ impl TaylorProgram {
                     Some(simpler) => compiler.simpler(simpler)?,
                     None => match compiler.modulus(graph, step)? {
                         Some(form) => form,
-                        None => compiler.form_of(step, dimension)?,
+                        None => match compiler
+                            .extreme(graph, step)
+                            .or_else(|| constants.and_then(|_| compiler.area_or_sine(graph, place)))
+                        {
+                            Some(form) => form,
+                            None => compiler.form_of(step, dimension)?,
+                        },
                     },
                 },
             };

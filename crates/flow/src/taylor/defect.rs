@@ -149,8 +149,9 @@ impl<T: SeriesNumber> Stepper<T> {
         let known: Vec<f64> = sizes.iter().map(|[size, _]| T::EPSILON * size).collect();
         let errors = self.series.rate_errors(index, known);
         (0..self.dimension()).all(|row| {
-            let gap = self.sampled.slopes[row] - self.series.probed_rate(row);
-            let rounding = errors[row] + T::EPSILON * sizes[row][1];
+            let rate = self.series.probed_rate(row) * self.series.units;
+            let gap = self.sampled.slopes[row] - rate;
+            let rounding = errors[row] * self.lanes[index].unit + T::EPSILON * sizes[row][1];
             gap.lane(index).leading().abs() <= allowed + ROUNDINGS * rounding
         })
     }
@@ -201,7 +202,7 @@ impl<T: SeriesNumber> Kernel for Comparison<'_, T> {
         let stepper = self.0;
         let (mut gap, mut soundness) = (T::ZERO, T::ZERO);
         for (row, slope) in stepper.sampled.slopes.iter().enumerate() {
-            let rate = stepper.series.probed_rate(row);
+            let rate = stepper.series.probed_rate(row) * stepper.series.units;
             gap = gap.larger(*slope - rate);
             soundness = soundness + rate * T::ZERO;
         }

@@ -10,7 +10,7 @@ use liouville::number::double_double::DoubleDouble;
 
 /// Number of steps before a singularity at which it counts as near.
 const STEPS_BEFORE: f64 = 64.0;
-/// Size of a state or a velocity that is the last one below the end of the range of f64.
+/// Size of a state, or of its change in a unit of time, that is the last one below the end of the range of f64.
 const HUGE: f64 = 1e290;
 /// Ratio of the time since the start to that in which a motion changes by its own size, from which on it
 /// runs into a singularity.
@@ -31,7 +31,7 @@ impl<T: SeriesNumber> Stepper<T> {
             return Err(FlowError::Stopped);
         }
         let motion = &self.lanes[lane];
-        let step = motion.step.leading();
+        let step = motion.length();
         let finite = self.is_regular(lane);
         let left = (motion.until - motion.time).hi.abs();
         // Less than the time's last place may be left of a very long run.
@@ -113,7 +113,7 @@ impl<T: SeriesNumber> Stepper<T> {
         let at = |value: T| value.lane(lane).leading();
         let [still, moving, ..] = self.sizes.norms.map(at);
         let is_shrunk = motion.former <= SHRUNK * motion.pace.longest();
-        let reach = STEPS_BEFORE * motion.former;
+        let reach = STEPS_BEFORE * motion.former / motion.unit;
         let direction = (motion.until - motion.time).hi.signum();
         let vanishes = |[value, rate]: [T; 2]| {
             let (value, rate) = (at(value), at(rate));
@@ -121,7 +121,7 @@ impl<T: SeriesNumber> Stepper<T> {
             let grows = value * rate * direction > 0.0;
             !is_faint && !grows && value.abs() <= rate.abs() * reach || value == 0.0
         };
-        is_shrunk && moving * motion.time.hi.abs() > SUDDEN * still
+        is_shrunk && moving * (motion.time.hi / motion.unit).abs() > SUDDEN * still
             || self.series.arguments().any(vanishes)
     }
 

@@ -100,7 +100,7 @@ impl<T: SeriesNumber> Series<T> {
     /// Computes order n + 1 of the state.
     #[inline(always)]
     fn next_order(&mut self, n: usize) {
-        let by_next = self.inverses[n + 1];
+        let by_next = self.advances[n + 1];
         let mut copies = self.code.copies.as_slice();
         let copied = T::copied(self.orders, n + 1);
         for component in &self.code.state {
@@ -175,7 +175,7 @@ impl<T: SeriesNumber> BoundProgram<T> {
                     let factor = T::float(function.slope());
                     (factor, factor * at(slope))
                 }
-                PlacedRule::Sign(_) => (T::ZERO, T::ZERO),
+                PlacedRule::Sign(_) | PlacedRule::Near(..) => (T::ZERO, T::ZERO),
                 PlacedRule::Power { x, factor, .. } => (at(x).recip(), *factor * z * at(x).recip()),
             };
             finish.scale = scale;

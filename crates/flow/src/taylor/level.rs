@@ -10,12 +10,10 @@ use liouville::graph::{Evaluator, Tape};
 use liouville::number::double_double::{DoubleDouble, DoubleDoubles};
 use nalgebra::{DMatrix, DVector};
 
-/// Number of steps from one look at the level to the next.
-pub(crate) const STRIDE: u64 = 8;
-/// Roundings of the state by which it may be off the level.
-const ROUNDINGS: f64 = 1024.0;
-/// Distance from the level, relative to the state, from which on a Newton step is not trusted.
-const FAR: f64 = 1e-3;
+/// Roundings of the state by which a function of the level may be off.
+const ROUNDINGS: f64 = 256.0;
+/// Part of the distance from the level that a Newton step may leave.
+const NEARER: f64 = 0.25;
 /// Number of Newton steps, which converge quadratically.
 const MOST_STEPS: usize = 3;
 
@@ -33,36 +31,59 @@ impl Level {
         Self { tape, equations, dimension }
     }
 
-    /// Shortest Newton step to the level.
-    fn step(&self, state: &[DoubleDouble]) -> Option<Vec<f64>> {
+    /// Values of the functions at a state, and their gradients.
+    fn values(&self, state: &[DoubleDouble]) -> Vec<f64> {
         let mut evaluator = Evaluator::new(&self.tape, DoubleDoubles);
         evaluator.run(&state[..self.tape.inputs()]);
-        let outputs: Vec<f64> = evaluator.outputs().map(|value| value.hi).collect();
-        let (values, slopes) = outputs.split_at(self.equations);
+        evaluator.outputs().map(|value| value.hi).collect()
+    }
+
+    /// Largest value, relative to what a relative change of the state by 1 makes of it.
+    fn gap(&self, values: &[f64], state: &[DoubleDouble]) -> f64 {
+        let (values, slopes) = values.split_at(self.equations);
+        let gaps = values.iter().zip(slopes.chunks(self.dimension)).map(|(value, gradient)| {
+            let parts = gradient.iter().zip(state);
+            let size: f64 = parts.map(|(slope, x)| (slope * x.hi).abs()).sum();
+            value.abs() / size.max(f64::MIN_POSITIVE)
+        });
+        gaps.fold(0.0, f64::max)
+    }
+
+    /// Shortest Newton step to the level.
+    fn step(&self, values: &[f64]) -> Option<DVector<f64>> {
+        let (values, slopes) = values.split_at(self.equations);
         let jacobian = DMatrix::from_row_slice(self.equations, self.dimension, slopes);
         let square = &jacobian * jacobian.transpose();
         let weights = square.lu().solve(&DVector::from_column_slice(values))?;
         let step = jacobian.transpose() * weights;
-        step.iter().all(|x| x.is_finite()).then(|| step.iter().copied().collect())
+        step.iter().all(|x| x.is_finite()).then_some(step)
     }
 
-    /// Moves a state to the level if it is off by more than `rounding` relative to its size.
+    /// Moves a state to the level if it is off by more than some roundings.
     fn correct(&self, state: &mut [DoubleDouble], rounding: f64) -> bool {
-        let norm = |parts: &mut dyn Iterator<Item = f64>| parts.map(|x| x * x).sum::<f64>().sqrt();
+        let mut values = self.values(state);
+        let mut gap = self.gap(&values, state);
+        if gap.is_nan() || gap <= ROUNDINGS * rounding {
+            return false;
+        }
         let mut moved = false;
         for _ in 0..MOST_STEPS {
-            let Some(step) = self.step(state) else { break };
-            let own = &mut state[..self.dimension];
-            let (size, still) =
-                (norm(&mut step.iter().copied()), norm(&mut own.iter().map(|x| x.hi)));
-            let least = if moved { rounding } else { ROUNDINGS * rounding };
-            if size <= least * still || size > FAR * still {
+            let Some(step) = self.step(&values) else { break };
+            let mut next = state.to_vec();
+            for (x, dx) in next.iter_mut().zip(step.iter()) {
+                *x = *x - DoubleDouble::from_f64(*dx);
+            }
+            values = self.values(&next);
+            let rest = self.gap(&values, &next);
+            // Newton's method is trusted where it brings the state nearer at once.
+            if rest.is_nan() || rest > NEARER * gap {
                 break;
             }
-            for (x, dx) in own.iter_mut().zip(step) {
-                *x = *x - DoubleDouble::from_f64(dx);
+            state.copy_from_slice(&next);
+            (gap, moved) = (rest, true);
+            if gap <= rounding {
+                break;
             }
-            moved = true;
         }
         moved
     }
@@ -73,9 +94,7 @@ impl<T: SeriesNumber> Stepper<T> {
     pub(crate) fn keep_level(&mut self) {
         let Some(level) = self.level.clone() else { return };
         for lane in 0..T::LANES {
-            if !self.lanes[lane].steps.is_multiple_of(STRIDE)
-                || self.lanes[lane].step.leading() == 0.0
-            {
+            if self.lanes[lane].step.leading() == 0.0 {
                 continue;
             }
             let mut state = self.pairs(lane);

@@ -37,7 +37,11 @@ pub(crate) struct Lane<One> {
     pub(crate) aim: DoubleDouble,
     /// Sizes of the state at the start, and at its largest.
     pub(crate) sizes: [f64; 2],
-    /// Step from the present expansion, and size of the one before.
+    /// Unit of time of the present expansion.
+    pub(crate) unit: f64,
+    /// Whether there is one in some unit, as far as is known.
+    pub(crate) has_series: bool,
+    /// Step from the present expansion in its unit, and size of the one before.
     pub(crate) step: One,
     pub(crate) former: f64,
     pub(crate) steps: u64,
@@ -75,6 +79,8 @@ impl<One: SeriesNumber> Lane<One> {
             turned: None,
             stalls: 0,
             sizes: [f64::NAN, 0.0],
+            unit: 1.0,
+            has_series: true,
             step: One::ZERO,
             former: 0.0,
             steps: 0,
@@ -97,10 +103,16 @@ impl<One: SeriesNumber> Lane<One> {
         self.sizes[1] = self.sizes[1].max(size);
     }
 
+    /// Length of the present step; negative backwards in time.
+    pub(crate) fn length(&self) -> f64 {
+        self.step.leading() * self.unit
+    }
+
     /// Whether the present step changes the time.
     pub(crate) fn moves(&self) -> bool {
         let time = self.time.hi;
-        time + self.step.leading() != time || time == 0.0
+        let step = self.length() * (f64::EPSILON / One::EPSILON);
+        time + step != time || time == 0.0
     }
 
     /// Begins a step: what has no value at once is lost already.
@@ -114,16 +126,17 @@ impl<One: SeriesNumber> Lane<One> {
     where
         One: SeriesNumber<One = One>,
     {
-        let step = self.step.leading();
+        let step = self.length();
         self.stalls = if self.moves() { 0 } else { self.stalls + 1 };
         if step != 0.0 {
-            self.time = self.time + self.step.pair();
+            self.time = self.time + self.step.pair() * DoubleDouble::from_f64(self.unit);
             self.former = step.abs();
             self.steps += 1;
             let (now, left) = (self.time.hi, (self.aim - self.time).hi);
             self.pace.keep(step, self.steps, now, left);
         }
-        let reached = self.edge.filter(|(_, after)| step.abs() >= after.leading().abs());
+        let reached =
+            self.edge.filter(|(_, after)| self.step.leading().abs() >= after.leading().abs());
         match reached {
             Some((Edge::Sign(sign), _)) => self.turned = Some(sign),
             _ => self.lost = self.lost.or(reached.map(|(edge, _)| edge)),

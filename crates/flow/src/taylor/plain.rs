@@ -38,11 +38,21 @@ impl<T: SeriesNumber> BoundProgram<T> {
                 PlacedRule::Power { x, exponent, .. } => at(x).power(exponent),
                 PlacedRule::Saturating { function, x, .. } => function.at(at(x)),
                 PlacedRule::Sign(_) => operation.constant,
+                PlacedRule::Near(x, reach) => near(at(x), *reach),
             };
             // Order 0 does not enter the inner sums: behind order 1 there are zeros.
             memory[finish.place as usize] = value;
         }
     }
+}
+
+/// 1 in the lanes in which |x| is below half the reach of a series, and 0 in the others.
+#[inline(always)]
+fn near<T: SeriesNumber>(x: T, reach: f64) -> T {
+    T::from_lanes(|lane| match x.lane(lane).leading().abs() < 0.5 * reach {
+        true => T::One::ONE,
+        false => T::One::ZERO,
+    })
 }
 
 /// Work of computing the values at the probed state.
@@ -131,7 +141,7 @@ impl<T: SeriesNumber> Series<T> {
         };
         match &operation.rule {
             PlacedRule::Sum => self.sum_error(operation, lane, at),
-            PlacedRule::Theta | PlacedRule::Sign(_) => 0.0,
+            PlacedRule::Theta | PlacedRule::Sign(_) | PlacedRule::Near(..) => 0.0,
             PlacedRule::Recip(x) => by(*x, &|_| own * own),
             PlacedRule::Sqrt(x) => by(*x, &|_| 0.5 / own),
             PlacedRule::Exp(x) => by(*x, &|_| own),

@@ -12,8 +12,9 @@
 //! z = sin x     n z_n = θx_n y_0 + Σ θx_k y_{n-k}, y = cos x; the same with -sin for cos
 //! z = atan x    n y_0 z_n = n x_n - Σ θz_k y_{n-k}, y = 1 + x²
 //! z = tanh x    n z_n = θx_n w_0 + Σ θx_k w_{n-k}, w = 1/cosh² x; the same with -2 z w for w
-//! z = 1/(1+eˣ)  n z_n = -θx_n v_0 - Σ θx_k v_{n-k}, v = z - z²
+//! z = 1/(1+eˣ)  n z_n = -θx_n v_0 - Σ θx_k v_{n-k}, v = eˣ z²; the same with v - 2 v z for v
 //! z = sign x    z_n = 0; |x| = z x
+//! z = near x    z_n = 0
 //! z = x^q       n x_0 z_n = q θx_n z_0 + Σ (q θx_k z_{n-k} - θz_k x_{n-k})
 //! ```
 //!
@@ -62,6 +63,8 @@ pub enum Rule {
     },
     /// ±1, the sign of x, over a step on which x is not 0.
     Sign(Row),
+    /// 1 where |x| is below half of the number, and 0 elsewhere.
+    Near(Row, f64),
 }
 
 impl Rule {
@@ -74,7 +77,8 @@ impl Rule {
             | Rule::Sqrt(x)
             | Rule::Exp(x)
             | Rule::Ln(x)
-            | Rule::Sign(x) => Some(*x),
+            | Rule::Sign(x)
+            | Rule::Near(x, _) => Some(*x),
             Rule::Sin { x, .. }
             | Rule::Cos { x, .. }
             | Rule::Atan { x, .. }

@@ -1,10 +1,11 @@
-//! Products in which quotients are functions of their own: x/|x| is a sign, and quotients of
-//! exponential functions are tanh u or 1/(1 + eᵘ).
+//! Products in which quotients are functions of their own: x/|x| is a sign, quotients of exponential
+//! functions are tanh u or 1/(1 + eᵘ), and u/(1 − e⁻ᵘ) has a value at u = 0.
 //!
 //! A Taylor program has a row s = ±1 for the sign of x, which is constant over a step, and |x| is s x.
 //! Quotients of both, as in slopes of |x|, are s alone, also where x is 0.
 
-use crate::taylor::saturating::{Saturating, exponent, hyperbolic, logistic};
+use crate::taylor::removable::Removable;
+use crate::taylor::saturating::{Saturating, area, exponent, hyperbolic, logistic};
 use liouville::graph::{Expr, Graph, Step};
 use liouville::number::rational::Rational;
 use liouville::number::{BinaryOperation, UnaryFunction};
@@ -90,6 +91,8 @@ impl Factor {
 pub(super) struct Simpler {
     pub(super) rest: Product,
     pub(super) factors: Vec<Factor>,
+    /// Quotients with limits where their divisors are 0.
+    pub(super) limits: Vec<Removable>,
     /// Whether the product jumps where a sign changes, as far as its form shows.
     pub(super) jumps: bool,
 }
@@ -102,10 +105,13 @@ impl Simpler {
             Step::Binary(BinaryOperation::Mul, ..) | Step::Unary(UnaryFunction::Recip, _)
         );
         let rest = Product::of(graph, place).filter(|_| is_product)?;
-        let mut simpler = Self { rest, factors: Vec::new(), jumps: false };
+        let (factors, limits) = (Vec::new(), Vec::new());
+        let mut simpler = Self { rest, factors, limits, jumps: false };
         simpler.signs(graph)?;
+        simpler.limits(graph);
         simpler.saturating(graph);
-        (!simpler.factors.is_empty()).then_some(simpler)
+        let is_simpler = !simpler.factors.is_empty() || !simpler.limits.is_empty();
+        is_simpler.then_some(simpler)
     }
 
     /// Cancels moduli and their arguments.
@@ -133,6 +139,14 @@ impl Simpler {
             }
         }
         Some(())
+    }
+
+    /// Takes out quotients that have limits where their divisors are 0.
+    fn limits(&mut self, graph: &Graph) {
+        while let Some(found) = Removable::of(graph, &self.rest.factors) {
+            found.factors.iter().for_each(|(place, power)| self.rest.add(*place, -power));
+            self.limits.push(found);
+        }
     }
 
     /// Replaces quotients of exponential functions.
@@ -194,7 +208,8 @@ impl Simpler {
     /// Places on which the product depends.
     fn arguments(&self) -> impl Iterator<Item = usize> {
         let factors = self.factors.iter().map(|factor| factor.argument());
-        self.rest.factors.iter().map(|(place, _)| *place).chain(factors)
+        let limits = self.limits.iter().flat_map(Removable::arguments);
+        self.rest.factors.iter().map(|(place, _)| *place).chain(factors).chain(limits)
     }
 }
 
@@ -215,7 +230,10 @@ impl Needed {
         let Self { mut places, mut simpler } = Self::exactly(graph, wanted);
         let is_part = |place: usize| {
             let step = graph.step(place);
-            matches!(step, Step::Unary(UnaryFunction::Abs | UnaryFunction::Exp, _))
+            let is_algebraic = |function| {
+                matches!(function, UnaryFunction::Neg | UnaryFunction::Recip | UnaryFunction::Sqrt)
+            };
+            matches!(step, Step::Unary(function, _) if !is_algebraic(function))
         };
         if !(0..graph.len()).any(|place| places[place] && is_part(place)) {
             return Self { places, simpler };
@@ -236,7 +254,11 @@ impl Needed {
                         Step::Unary(UnaryFunction::Recip, a) => modulus_at(graph, a),
                         _ => None,
                     };
-                    match modulus {
+                    let sine = hyperbolic(graph, place).filter(|(is_sine, _)| *is_sine);
+                    match modulus
+                        .or(sine.map(|(_, [u, _])| u))
+                        .or(area(graph, place).map(|own| own.1))
+                    {
                         Some(argument) => places[argument] = true,
                         None => own.arguments().for_each(|argument| places[argument] = true),
                     }

@@ -21,9 +21,9 @@ const TINY: f64 = 1e-140;
 const FAINT: f64 = -320.0;
 /// Growth of the exponent over a step which is possible from there on.
 const RISE: f64 = 40.0;
-/// Part of a step below which it is not shortened, and multiple of the time.
+/// Part of a step below which it is not shortened, and multiple of the time's rounding.
 const LEAST: f64 = 1.0 / (1u64 << 40) as f64;
-const LAST_PLACES: f64 = 4096.0 * f64::EPSILON;
+const LAST_PLACES: f64 = 4096.0;
 /// Number of times that a step is halved for an exponent.
 const MOST_HALVES: usize = 60;
 
@@ -45,10 +45,19 @@ impl<T: SeriesNumber> Stepper<T> {
                 }
             }
         }
+        for (near, argument, reach) in self.series.nears() {
+            for (index, limit) in limits.iter_mut().enumerate() {
+                if near.lane(index).leading() > 0.0 {
+                    let step = self.lanes[index].step.leading().abs().min(*limit);
+                    *limit = limit.min(within(argument, reach, index, step));
+                }
+            }
+        }
         // A zero of high order of a function without poles is passed, not approached for ever.
         for (lane, limit) in self.lanes.iter().zip(&mut limits) {
             let step = lane.step.leading().abs();
-            let least = (LEAST * step).max(LAST_PLACES * lane.time.hi.abs());
+            let least =
+                (LEAST * step).max(LAST_PLACES * T::EPSILON * lane.time.hi.abs() / lane.unit);
             *limit = limit.max(least.min(step));
         }
         with_widest_vectors(Resolution { stepper: self, limits: &mut limits, is_entire: false });
@@ -144,6 +153,15 @@ fn resolved<T: SeriesNumber>(terms: &[T], lane: usize) -> f64 {
         // All terms before are 0, or one is not finite.
         _ => f64::INFINITY,
     }
+}
+
+/// Length of a step over which an argument stays within reach of 0.
+fn within<T: SeriesNumber>(argument: &[T], reach: f64, lane: usize, step: f64) -> f64 {
+    let size = |step: f64| {
+        argument.iter().rev().fold(0.0, |sum, x| sum * step + x.lane(lane).leading().abs())
+    };
+    let halves = (0..MOST_HALVES as i32).map(|n| libm::ldexp(step, -n));
+    halves.into_iter().find(|step| size(*step) <= reach).unwrap_or(0.0)
 }
 
 /// Length of a step over which an exponent that is far below 0 does not grow too much.

@@ -44,8 +44,17 @@ fn rounded(instruction: &RowInstruction, rows: &[Rounded], epsilon: f64) -> Roun
         Rule::Sum => sum(instruction, rows, epsilon),
         Rule::Theta(_) => Rounded::default(),
         Rule::Saturating { function, x, .. } => {
-            let bound = Saturating::Fall.at(0.5 * rows[*x].value);
+            let bound = match function {
+                Saturating::Sinh | Saturating::Cosh => Saturating::Cosh.at(rows[*x].value),
+                Saturating::Asinh => 1.0,
+                Saturating::Atanh => (1.0 - rows[*x].value * rows[*x].value).recip(),
+                _ => Saturating::Fall.at(0.5 * rows[*x].value),
+            };
             own(function.at(rows[*x].value), bound, rows[*x])
+        }
+        Rule::Near(x, reach) => {
+            let is_near = rows[*x].value.abs() < 0.5 * reach;
+            Rounded { value: f64::from(u8::from(is_near)), error: 0.0 }
         }
         Rule::Sign(x) => Rounded { value: 1f64.copysign(rows[*x].value), error: 0.0 },
         Rule::Recip(x) => {

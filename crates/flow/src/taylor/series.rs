@@ -16,8 +16,10 @@ pub struct Series<T: SeriesNumber> {
     /// Order to which rows are padded.
     pub(crate) orders: usize,
     pub(crate) code: BoundProgram<T>,
-    /// Reciprocals 1/n.
+    /// Reciprocals 1/n, and the units of time over n.
     pub(crate) inverses: Vec<T>,
+    pub(crate) advances: Vec<T>,
+    pub(crate) units: T,
     /// Inner sums of the operations that have any, at the current order, before and after their
     /// parts are added.
     pub(crate) partial: Vec<T::Partial>,
@@ -34,6 +36,8 @@ pub struct Series<T: SeriesNumber> {
     roots: Vec<Place>,
     /// Places of the rows that are divided by.
     divisors: Vec<Place>,
+    /// Places of the rows that are 1 near 0, of their arguments, and how far near reaches.
+    nears: Vec<(Place, Place, f64)>,
     /// Operations that are signs, with the places of their arguments.
     signs: Vec<(usize, Place)>,
     has_pulses: bool,
@@ -66,6 +70,11 @@ impl<T: SeriesNumber> Series<T> {
             matches!(operation.rule, PlacedRule::Sqrt(_) | PlacedRule::Power { .. })
         });
         let roots = roots.map(|(_, finish)| finish.place).collect();
+        let nears = placed().filter_map(|(operation, finish)| match operation.rule {
+            PlacedRule::Near(x, reach) => Some((finish.place, x, reach)),
+            _ => None,
+        });
+        let nears = nears.collect();
         let signs = code.operations.iter().enumerate();
         let signs = signs.filter_map(|(index, operation)| match operation.rule {
             PlacedRule::Sign(x) => Some((index, x)),
@@ -83,13 +92,15 @@ impl<T: SeriesNumber> Series<T> {
         let mut divisors: Vec<Place> = divisors.collect();
         divisors.sort_unstable();
         divisors.dedup();
+        let inverse = |n: usize| T::rational(&Rational::new(1, n.max(1) as i64));
+        let inverses: Vec<T> = (0..=order).map(inverse).collect();
         Self {
             order,
             orders: order.next_multiple_of(T::WIDTH),
             code,
-            inverses: (0..=order)
-                .map(|n| T::rational(&Rational::new(1, n.max(1) as i64)))
-                .collect(),
+            advances: inverses.clone(),
+            inverses,
+            units: T::ONE,
             partial: vec![T::nothing(); sums],
             inner: vec![T::ZERO; sums],
             probed: memory.clone(),
@@ -99,6 +110,7 @@ impl<T: SeriesNumber> Series<T> {
             divisors,
             has_pulses: !exponents.is_empty() || program.degree() > order,
             exponents,
+            nears,
             signs,
             expansions: 0,
             machine: None,
@@ -116,6 +128,15 @@ impl<T: SeriesNumber> Series<T> {
             self.memory[component.place as usize] = *value;
         }
         with_widest_vectors(Expansion(self));
+    }
+
+    /// Measures the time of expansions in these units, which are powers of 2.
+    pub(crate) fn measure_in(&mut self, units: T) {
+        let is_same = |lane: usize| units.lane(lane).leading() == self.units.lane(lane).leading();
+        if !(0..T::LANES).all(is_same) {
+            let scaled = self.inverses.iter().map(|inverse| *inverse * units);
+            (self.advances, self.units) = (scaled.collect(), units);
+        }
     }
 
     /// Clears the memory: values that are not finite must not meet the zeros behind a row.
@@ -140,11 +161,11 @@ impl Series<f64> {
             }
         }
         let Some(mut machine) = self.machine.take() else { return false };
-        if !machine.begin(&self.inverses, &mut self.memory) {
+        if !machine.begin([&self.inverses, &self.advances], &mut self.memory) {
             self.begin();
             machine.take(&self.code);
         }
-        machine.run(&self.code, &self.inverses, &mut self.memory);
+        machine.run(&self.code, [&self.inverses, &self.advances], &mut self.memory);
         self.machine = Some(machine);
         true
     }
@@ -153,7 +174,9 @@ impl Series<f64> {
     #[inline(always)]
     pub(crate) fn values_by_machine(&mut self) -> bool {
         let machine = self.machine.as_mut();
-        machine.is_some_and(|machine| machine.begin(&self.inverses, &mut self.probed))
+        machine.is_some_and(|machine| {
+            machine.begin([&self.inverses, &self.advances], &mut self.probed)
+        })
     }
 }
 
@@ -168,11 +191,11 @@ impl Series<Lanes<MOTION_LANES>> {
             }
         }
         let Some(mut machine) = self.machine.take() else { return false };
-        if !machine.begin(&self.inverses, &mut self.memory) {
+        if !machine.begin([&self.inverses, &self.advances], &mut self.memory) {
             self.begin();
             machine.take(&self.code);
         }
-        machine.run(&self.code, &self.inverses, &mut self.memory);
+        machine.run(&self.code, [&self.inverses, &self.advances], &mut self.memory);
         self.machine = Some(machine);
         true
     }
@@ -181,7 +204,9 @@ impl Series<Lanes<MOTION_LANES>> {
     #[inline(always)]
     pub(crate) fn values_by_machine(&mut self) -> bool {
         let machine = self.machine.as_mut();
-        machine.is_some_and(|machine| machine.begin(&self.inverses, &mut self.probed))
+        machine.is_some_and(|machine| {
+            machine.begin([&self.inverses, &self.advances], &mut self.probed)
+        })
     }
 }
 
@@ -218,6 +243,13 @@ impl<T: SeriesNumber> Series<T> {
     /// Rows that are divided by: their places, and coefficients of orders 0 to `order` - 1.
     pub fn divisors(&self) -> impl Iterator<Item = (Place, &[T])> {
         self.divisors.iter().map(|place| (*place, self.row(*place)))
+    }
+
+    /// Arguments of series that stand for quotients, with the rows that are 1 where they do, and how
+    /// far they reach.
+    pub fn nears(&self) -> impl Iterator<Item = (&T, &[T], f64)> {
+        let nears = self.nears.iter();
+        nears.map(|(near, x, reach)| (&self.memory[*near as usize], self.row(*x), *reach))
     }
 
     /// Number of signs of moduli.

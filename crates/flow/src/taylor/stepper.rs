@@ -127,7 +127,7 @@ impl<T: SeriesNumber> Stepper<T> {
             set(&mut self.state[index], lane, value);
             set(&mut self.rest[index], lane, rest);
         }
-        self.lanes[lane].is_settled = false;
+        (self.lanes[lane].is_settled, self.lanes[lane].has_series) = (false, true);
     }
 
     /// Multiplies some components of a motion's state.
@@ -157,7 +157,7 @@ impl<T: SeriesNumber> Stepper<T> {
 
     /// Expands all motions at their states and chooses their steps.
     pub fn expand(&mut self) {
-        self.expand_at_state();
+        self.expand_in_units();
         self.settle_signs();
         for index in 0..T::LANES {
             let size = self.step_size(index);
@@ -165,7 +165,7 @@ impl<T: SeriesNumber> Stepper<T> {
             let lane = &mut self.lanes[index];
             lane.visit(still);
             (lane.is_cut, lane.edge, lane.halves) = (false, None, 0);
-            let left = lane.until - lane.time;
+            let left = (lane.until - lane.time) * DoubleDouble::from_f64(lane.unit.recip());
             lane.step = if size < left.hi.abs() {
                 T::One::float(size.copysign(left.hi))
             } else {
@@ -191,11 +191,12 @@ impl<T: SeriesNumber> Stepper<T> {
     /// Makes neighbouring motions, in groups of `together`, take the same step.
     pub fn keep_pace(&mut self, together: usize) {
         for group in self.lanes.chunks_mut(together) {
-            let steps = group.iter().map(|lane| lane.step);
+            let steps = group.iter().map(|lane| lane.step * T::One::float(lane.unit));
             let shortest =
                 steps.reduce(|a, b| if a.leading().abs() <= b.leading().abs() { a } else { b });
             if let Some(step) = shortest {
-                group.iter_mut().for_each(|lane| lane.step = step);
+                let own = |unit: f64| step * T::One::float(unit.recip());
+                group.iter_mut().for_each(|lane| lane.step = own(lane.unit));
             }
         }
     }
@@ -208,14 +209,13 @@ impl<T: SeriesNumber> Stepper<T> {
 
     /// Present step of a motion.
     pub fn step(&self, lane: usize) -> T::One {
-        self.lanes[lane].step
+        self.lanes[lane].step * T::One::float(self.lanes[lane].unit)
     }
 
     /// Velocity of a motion at its present state.
     pub fn velocity(&self, lane: usize) -> Vec<f64> {
-        (0..self.state.len())
-            .map(|row| self.series.component(row)[1].lane(lane).leading())
-            .collect()
+        let speed = |row: usize| self.series.component(row)[1].lane(lane).leading();
+        (0..self.state.len()).map(|row| speed(row) / self.lanes[lane].unit).collect()
     }
 
     /// Whether a motion stands still: its velocity is exactly 0.
@@ -236,7 +236,7 @@ impl<T: SeriesNumber> Stepper<T> {
     pub fn is_done(&self, lane: usize) -> bool {
         let motion = &self.lanes[lane];
         let left = motion.until - motion.time;
-        left.hi.abs() <= f64::EPSILON * motion.step.leading().abs()
+        left.hi.abs() <= f64::EPSILON * motion.length().abs()
     }
 
     /// Time of a motion.
@@ -260,6 +260,7 @@ impl<T: SeriesNumber> Stepper<T> {
         MotionPiece { stepper: self, lane }
     }
 
+    /// Length of the step that the last two orders suggest, in the unit of the expansion.
     pub(crate) fn step_size(&self, lane: usize) -> f64 {
         let order = self.series.order();
         let norms = self.sizes.norms.map(|norm| norm.lane(lane).leading());
@@ -332,7 +333,7 @@ impl<T: SeriesNumber> Kernel for Within<'_, T> {
     }
 }
 
-/// A motion between two steps, as polynomials in the time since the first.
+/// A motion between two steps, as polynomials in the time since the first, in a unit of its own.
 pub struct MotionPiece<'s, T: SeriesNumber> {
     stepper: &'s Stepper<T>,
     lane: usize,
@@ -344,9 +345,29 @@ impl<T: SeriesNumber> MotionPiece<'_, T> {
         self.stepper.lanes[self.lane].time
     }
 
-    /// Duration; negative backwards in time.
+    /// Duration in the unit of the piece; negative backwards in time.
     pub fn length(&self) -> T::One {
         self.stepper.lanes[self.lane].step
+    }
+
+    /// Unit of time of the piece.
+    pub fn unit(&self) -> f64 {
+        self.stepper.lanes[self.lane].unit
+    }
+
+    /// Duration of a time after the beginning that is given in the unit of the piece.
+    pub fn duration(&self, after: T::One) -> DoubleDouble {
+        after.pair() * DoubleDouble::from_f64(self.unit())
+    }
+
+    /// Time of the motion at a time after the beginning.
+    pub fn time(&self, after: T::One) -> DoubleDouble {
+        self.begin() + self.duration(after)
+    }
+
+    /// A duration in the unit of the piece.
+    pub fn after(&self, duration: DoubleDouble) -> DoubleDouble {
+        duration * DoubleDouble::from_f64(self.unit().recip())
     }
 
     /// Coefficients of a further function of the program.
@@ -354,7 +375,7 @@ impl<T: SeriesNumber> MotionPiece<'_, T> {
         self.stepper.series.output(index).iter().map(|x| x.lane(self.lane)).collect()
     }
 
-    /// State at a time after the beginning.
+    /// State at a time after the beginning, in the unit of the piece.
     pub fn state(&self, after: T::One) -> Vec<DoubleDouble> {
         let stepper = self.stepper;
         (0..stepper.state.len())

@@ -12,6 +12,8 @@ use crate::taylor::watch::{Edge, may_vanish};
 
 /// Number of steps in turn that end where they begin, from which on signs turn without end.
 pub(super) const MOST_STALLS: u32 = 64;
+/// Size below which an argument has no side: its terms underflow.
+const FAINT: f64 = 1e-280;
 
 impl<T: SeriesNumber> Stepper<T> {
     /// Chooses the signs of motions that begin, or that have just come to a zero of an argument.
@@ -76,7 +78,7 @@ impl<T: SeriesNumber> Stepper<T> {
         if argument.iter().all(|term| term.leading() == 0.0) {
             return true;
         }
-        let error = self.series.value_error(row, lane, &self.peaks);
+        let error = self.series.value_error(row, lane, &self.peaks).max(FAINT);
         let length =
             self.step_size(lane).copysign((self.lanes[lane].until - self.lanes[lane].time).hi);
         match argument[0].leading() {
@@ -95,7 +97,7 @@ impl<T: SeriesNumber> Stepper<T> {
             for (place, lane) in self.lanes.iter_mut().enumerate().filter(|(k, _)| may_vanish(*k)) {
                 let argument: Vec<T::One> = terms.iter().map(|x| x.lane(place)).collect();
                 let step = known_part(&argument, lane.step, self.kappa);
-                let error = || self.series.value_error(row, place, &self.peaks);
+                let error = || self.series.value_error(row, place, &self.peaks).max(FAINT);
                 // What is 0 up to rounding for the whole step has no side.
                 if size(&argument, step) <= error() {
                     continue;

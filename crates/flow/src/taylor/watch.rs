@@ -7,7 +7,7 @@
 
 use std::sync::Arc;
 
-use crate::taylor::event::{Event, Sides, extremum, turns, value};
+use crate::taylor::event::{Event, Sides, extremum, size, turns, value};
 use crate::taylor::number::SeriesNumber;
 use crate::taylor::shorten::known_part;
 use crate::taylor::stepper::Stepper;
@@ -29,6 +29,9 @@ pub(crate) fn written(phase: &Phase<'_, Expr>) -> Written {
     let all = known.map(|f| (f.text().trim().to_string(), phase.literal_values([f])));
     all.filter(|(_, values)| !values.is_empty()).collect()
 }
+
+/// Size of an argument from which on it may overflow before it comes to 0.
+const LARGE: f64 = 1e200;
 
 /// Part of its largest size below which a divisor may be 0 up to rounding.
 const LOW: f64 = 1e-6;
@@ -88,11 +91,26 @@ impl Domain {
         }
         let ends = |event: Event<T>| match event {
             Event::Tangency { .. } if self == Domain::NotNegative => None,
+            Event::Crossing { .. }
+                if self == Domain::NotNegative && !is_below(argument, length) =>
+            {
+                None
+            }
             Event::Tangency { after } | Event::Crossing { after, .. } => Some(after),
         };
         let mut sides = Sides::on(first >= 0.0);
         sides.events(argument, length, || 0.0).into_iter().find_map(ends)
     }
+}
+
+/// Whether a function is below 0 by more than rounding somewhere on a piece, as far as samples show; what
+/// touches 0 at the end is not.
+fn is_below<T: SeriesNumber<One = T>>(argument: &[T], length: T) -> bool {
+    const SAMPLES: i32 = 32;
+    const ROUNDINGS: f64 = 256.0;
+    let limit = ROUNDINGS * T::EPSILON * size(argument, length);
+    let at = |k: i32| length * T::float(f64::from(k) / f64::from(SAMPLES));
+    (1..=SAMPLES).any(|k| value(argument, at(k)).0.leading() < -limit)
 }
 
 /// Whether a function that begins at 0 is negative next.
@@ -273,12 +291,16 @@ impl<T: SeriesNumber> Stepper<T> {
         let count = presence.watched.len();
         let first = self.series.outputs() - count;
         for index in 0..count {
-            self.ends(first + index);
+            self.ends_of(first + index, |argument| argument.abs() < LARGE);
         }
         for (index, watched) in presence.watched.iter().enumerate() {
             for place in 0..T::LANES {
                 let argument = self.series.output(first + index).iter();
                 let argument: Vec<T::One> = argument.map(|x| x.lane(place)).collect();
+                let value = argument[0].leading();
+                if value.abs() >= LARGE && watched.domain.contains(value) {
+                    continue;
+                }
                 let lane = &mut self.lanes[place];
                 if let Some(after) = watched.domain.left_after(&argument, lane.step) {
                     lane.step = after;

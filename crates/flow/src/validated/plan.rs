@@ -110,7 +110,9 @@ impl Plan {
                 }
                 Rule::Theta(x) => RowRule::Theta(*x),
                 Rule::Recip(x) => RowRule::Recip(*x),
-                Rule::Sign(_) | Rule::Saturating { .. } => return Err(FlowError::NotAnalytic),
+                Rule::Sign(_) | Rule::Near(..) | Rule::Saturating { .. } => {
+                    return Err(FlowError::NotAnalytic);
+                }
                 Rule::Sqrt(x) => {
                     let (exact, value) = (Rational::new(1, 2), Enclosure::exact(0.5));
                     let exponent = PowerExponent { is_root: true, exact, value };

@@ -3,6 +3,7 @@
 
 mod bodies;
 mod conservative;
+mod integrals;
 
 use std::f64::consts::PI;
 
@@ -36,14 +37,16 @@ fn follow(case: &Case, wish: &Wish<'_>) -> Result<Branch, FlowError> {
     let state = read_state(case, wish.start).expect("a state");
     let start = Start::new(case, Some(&state), 1, 0)?;
     let (start, time) = crossing_time(&start, &surface, Direction::Up, 1)?;
-    let orbit = closed_orbit(case, &start, time, Some(&surface))?;
+    let varied = Coordinate::of_branch(case, wish.varied).map(|(_, varied)| varied);
+    let orbit = closed_orbit(case, &start, time, Some(&surface), &[])?;
     let request = BranchRequest {
         case,
         section: BranchSection::Surface(&surface),
         columns: Some(Columns::read(Lexicon::new(case), wish.axes).expect("columns")),
-        varied: Coordinate::of_branch(case, wish.varied).expect("it may vary").1,
+        varied: varied.expect("it may vary"),
         range: wish.range.map(number),
-        energy: None,
+        fixed: Vec::new(),
+        integrals: orbit.integrals,
         start: orbit.start,
         time: orbit.period.value,
         count: 200,

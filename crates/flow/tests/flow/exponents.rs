@@ -1,8 +1,9 @@
 //! Claims about exponents and mean divergences, of systems whose exponents are known.
 
 use liouville::case::Case;
-use liouville::verdict::{ClaimReport, Options, Verdict};
+use liouville::verdict::{ClaimReport, Options, Verdict, read_state};
 use liouville_flow::observe::observe;
+use liouville_flow::{Character, MapExponents, Start, map_exponents};
 
 /// Report on a claim about the motion of a plane field from a start.
 fn judged(field: [&str; 2], start: [&str; 2], claim: &str) -> ClaimReport {
@@ -121,4 +122,42 @@ fn numbers_that_are_exact_have_no_error() {
     }
     assert_eq!(read("reaches = \"x\"\nabove = 0\ntime = 1.000"), Ok(()));
     assert!(read("exponent = \"zero\"\ntime = 1e400").is_err(), "no time is infinite");
+}
+
+/// Exponents of a map of the plane along one orbit.
+fn of_map(images: [&str; 2], begin: [&str; 2], count: u64) -> MapExponents {
+    let [[p, q], [x, y]] = [images, begin];
+    let text = format!(
+        "title = \"map\"\n[state]\nx = \"-2..2\"\ny = \"-2..2\"\n[map]\nx = \"{p}\"\ny = \"{q}\"\n"
+    );
+    let case = Case::parse(&text, &[]).unwrap_or_else(|error| panic!("{text}: {error}"));
+    let state = read_state(&case, &format!("x={x} y={y}")).expect("a state");
+    let start = Start::new(&case, Some(&state), 1, 0);
+    let mut found = map_exponents(&case, &[start], count, 1, &|_| ());
+    found.pop().expect("an orbit").expect("all iterates")
+}
+
+#[test]
+fn exponents_of_maps_are_per_iterate() {
+    // λ₁ = 0.41922 and ln |det DΦ| = ln 0.3 (Hénon 1976)
+    let henon = of_map(["1 - 7/5*x^2 + y", "3/10*x"], ["0", "0"], 20_000);
+    assert!(
+        (henon.largest.largest.mean - 0.41922).abs() < 3.0 * henon.largest.largest.error + 1e-3
+    );
+    assert!((henon.largest.divergence.mean - 0.3f64.ln()).abs() < 1e-12);
+    assert_eq!(henon.largest.character, Character::StrangeAttractor);
+    let all = &henon.spectrum.exponents;
+    let sum = all[0].mean + all[1].mean;
+    assert!((sum - 0.3f64.ln()).abs() < 1e-12 && all[1].mean < -1.6, "{all:?}");
+    let dimension = henon.spectrum.kaplan_yorke().expect("volume shrinks");
+    assert!((dimension - 1.26).abs() < 0.01, "{dimension}");
+    // The linear map of the cat: the logarithm of its eigenvalue, and area is kept.
+    let cat = of_map(["2*x + y", "x + y"], ["0", "0"], 1000);
+    let expected = ((3.0 + 5f64.sqrt()) / 2.0).ln();
+    assert!((cat.spectrum.exponents[0].mean - expected).abs() < 1e-12);
+    assert_eq!(cat.largest.character, Character::UnstableRest);
+    // McMillan's map has an integral: vectors grow like a power.
+    let mcmillan = of_map(["y", "-x + 3*y/(1 + y^2)"], ["1/2", "1/3"], 10_000);
+    assert_eq!(mcmillan.largest.character, Character::Regular, "{mcmillan:?}");
+    assert!(mcmillan.largest.largest.mean.abs() < 2e-3, "{mcmillan:?}");
 }

@@ -3,8 +3,10 @@
 mod chaos;
 mod contacts;
 mod cycles;
+mod features;
 mod jumps;
 mod lanes;
+mod limits;
 mod moduli;
 mod presence;
 mod progress;

@@ -280,7 +280,7 @@ fn request(
         starts,
         backwards: options.backwards,
         seed: options.subject.seed,
-        ..options.crossing.plane.choice()
+        ..options.crossing.plane.choice()?
     };
     choice.request(case).map_err(|error| wrong_choice(&error))
 }

@@ -38,6 +38,10 @@ pub struct BasinArgs {
     /// Energy of all starts; by default each has that of its state
     #[arg(long, value_parser = parse_number)]
     pub energy: Option<Rational>,
+    /// Value of an integral that the case claims and that is proved, or of the energy, for all motions:
+    /// --fix J=3.1. The option may be repeated
+    #[arg(long, value_name = "NAME=VALUE", allow_hyphen_values = true)]
+    pub fix: Vec<String>,
     /// Time to follow each motion; negative: backwards. Its later half shows where it ends
     #[arg(long, default_value = "400", allow_hyphen_values = true, value_parser = parse_float)]
     pub time: f64,
@@ -76,10 +80,11 @@ pub fn run(options: &BasinArgs) -> Result<CommandOutput, String> {
     }
     let base = base(&case, options.start.as_deref())?;
     let columns = columns(&case, options.by.as_deref())?;
+    let fixed = super::fixing::fixed(&case, options.energy.as_ref(), &options.fix)?;
     let request = BasinRequest {
         axes: &axes,
         base: &base,
-        energy: options.energy.as_ref(),
+        fixed: &fixed,
         columns: &columns,
         time: options.time,
         seed: options.subject.seed,

@@ -1,18 +1,14 @@
 //! The command `liouville motion continue`.
 
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::channel;
-
 use clap::Args;
 use liouville::case::{Angle, Case};
 use liouville::number::rational::Rational;
 use liouville_flow::{
-    Branch, BranchPoint, BranchRequest, BranchSection, Columns, Coordinate, CrossingSurface,
-    FlowError, Lexicon, branch, declared_range, number_with_pi, stoppable,
+    Branch, BranchPoint, BranchRequest, BranchSection, Columns, Coordinate, CrossingSurface, Fixed,
+    FlowError, Lexicon, branch, declared_range, number_with_pi,
 };
 
-use super::super::limits::{STOPPED, Stop, signals};
+use super::CommandOutput;
 use super::eval::Opened;
 use super::ink::{Ink, Sheet};
 use super::motion::wrong_formula;
@@ -20,7 +16,7 @@ use super::output::Ending;
 use super::periodic::OrbitSearch;
 use super::surface::read_surface;
 use super::telling;
-use super::{CommandOutput, LimitArgs};
+use super::watching::watched;
 use crate::report::branch::BranchReport;
 use liouville_search::Meter;
 
@@ -28,7 +24,8 @@ use liouville_search::Meter;
 pub struct ContinueArgs {
     #[command(flatten)]
     pub search: OrbitSearch,
-    /// Quantity that varies: a parameter (a_g), a component of one (c3, I12), or the energy
+    /// Quantity that varies: a parameter (a_g), a component of one (c3, I12), the energy, or an
+    /// integral that the case claims and that is proved
     #[arg(long, value_name = "NAME")]
     pub parameter: String,
     /// Lower end of its range; by default that of the range in the case
@@ -57,21 +54,7 @@ fn parse_step(text: &str) -> Result<f64, String> {
 }
 
 pub fn run(options: &ContinueArgs) -> Result<CommandOutput, String> {
-    let limits = options.search.subject.limits;
-    limits.check()?;
-    let watch = Watch::new(limits)?;
-    let found = stoppable(&watch.raised, || answer(options));
-    let (raised, stop) = (Arc::clone(&watch.raised), watch.end());
-    let (text, is_stopped) = match found {
-        // nothing was reached
-        Err(_) if raised.load(Ordering::Relaxed) => (String::new(), true),
-        other => other?,
-    };
-    if is_stopped {
-        let stopped = "error: not finished: stopped".to_string();
-        anstream::eprintln!("{}", stop.map_or(stopped, |stop| stop.message(None)));
-    }
-    Ok(CommandOutput { text, code: if is_stopped { STOPPED } else { 0 } })
+    watched(options.search.subject.limits, || answer(options))
 }
 
 /// Follows the branch and writes its file; returns the report, and whether the branch was stopped
@@ -196,12 +179,16 @@ impl ContinueArgs {
             return Err("error: a branch has one start\nhelp: give --start once".to_string());
         };
         let g0: Angle;
-        let mut energy = search.plane.energy.clone();
+        let mut fixed = Vec::new();
         let section = match surface {
-            Some(surface) => BranchSection::Surface(surface),
+            Some(surface) => {
+                fixed = search.plane.fixed(case)?;
+                BranchSection::Surface(surface)
+            }
             None if liouville_flow::has_andoyer_section(&case.model) => {
                 let (angle, own) = search.plane.of(case)?;
-                (g0, energy) = (angle, Some(own));
+                fixed.push(Fixed::energy(own));
+                g0 = angle;
                 BranchSection::Andoyer(&g0)
             }
             None => {
@@ -219,7 +206,8 @@ impl ContinueArgs {
             columns,
             varied,
             range: range.clone(),
-            energy,
+            fixed,
+            integrals: orbit.cycle.integrals,
             time: orbit.cycle.period.value,
             start: orbit.cycle.start,
             count: self.count as usize,
@@ -254,34 +242,4 @@ fn declared(options: &ContinueArgs, opened: &Opened, varied: Coordinate) -> Opti
     let settings: Vec<String> = subject.settings.iter().filter(is_other).cloned().collect();
     let read = super::eval::read_text(&subject.case, &opened.text, &settings).ok()?;
     declared_range(&read.case, varied)
-}
-
-/// Watch over limits and signals beside the work.
-struct Watch {
-    raised: Arc<AtomicBool>,
-    done: std::sync::mpsc::Sender<()>,
-    thread: std::thread::JoinHandle<Option<Stop>>,
-}
-
-impl Watch {
-    fn new(limits: LimitArgs) -> Result<Self, String> {
-        let (signal, raised) = (signals()?, Arc::new(AtomicBool::new(false)));
-        let (done, receiver) = channel();
-        let flag = Arc::clone(&raised);
-        let thread = std::thread::Builder::new()
-            .spawn(move || {
-                let stop = limits.wait(&receiver, &signal).err();
-                flag.store(stop.is_some(), Ordering::Relaxed);
-                stop
-            })
-            .map_err(|error| format!("error: cannot start a thread: {error}"))?;
-        Ok(Self { raised, done, thread })
-    }
-
-    /// Ends the watch; returns the reason for which it stopped the work.
-    fn end(self) -> Option<Stop> {
-        // nobody waits any more if this fails
-        _ = self.done.send(());
-        self.thread.join().ok().flatten()
-    }
 }

@@ -284,6 +284,6 @@ fn launch(case: &Case, options: &ChartArgs, axes: &[ChartAxis; 2]) -> Result<Lau
     let state = options.state.as_deref().map(|text| verdict::read_state(case, text));
     let state = state.transpose().map_err(|error| format!("error: --state: {error}"))?;
     let choice =
-        SectionChoice { starts: options.start.into_iter().collect(), ..options.plane.choice() };
+        SectionChoice { starts: options.start.into_iter().collect(), ..options.plane.choice()? };
     choice.launch(case, axes, state).map_err(|error| wrong_choice(&error))
 }

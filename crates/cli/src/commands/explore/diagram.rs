@@ -138,7 +138,7 @@ fn through_angle(options: &DiagramArgs, case: &Case, axis: &ChartAxis) -> Result
         starts,
         backwards: options.backwards,
         seed: options.subject.seed,
-        ..options.crossing.plane.choice()
+        ..options.crossing.plane.choice()?
     };
     let mut request = choice.request(case).map_err(|error| wrong_choice(&error))?;
     if !is_given {
@@ -194,8 +194,8 @@ fn through_surface(
         skip: options.skip(),
         backwards: options.backwards,
     };
-    let energy = options.crossing.plane.energy.as_ref();
-    let section = DiagramSection::Surface { request: &request, begins: &begins, energy };
+    let fixed = options.crossing.plane.fixed(case)?;
+    let section = DiagramSection::Surface { request: &request, begins: &begins, fixed: &fixed };
     let values = follow(options, case, axis, section)?;
     let (surface, titles) = (Some(surface.text().to_string()), axes.titles().to_vec());
     Ok(Found { surface, titles, starts, values })

@@ -12,13 +12,13 @@ use liouville::verdict;
 use liouville_flow::{Begin, FlowError, Launches, Spectrum, Start};
 use serde::{Deserialize, Serialize};
 
-use super::Progress;
 use super::eval::Opened;
 use super::motion::{MotionArgs, SectionPlaneArgs, Threads, parse_float};
+use super::orbit::parse_iterates;
 use super::output::{Ending, Output};
 use super::share::{Share, Target, carry_out};
 use super::starts::{GivenStart, Starts, misfit};
-use super::{CommandOutput, write};
+use super::{CommandOutput, Progress, map_exponents, write};
 
 #[derive(Clone, Debug, Args)]
 pub struct ExponentsArgs {
@@ -26,10 +26,13 @@ pub struct ExponentsArgs {
     pub subject: MotionArgs,
     #[command(flatten)]
     pub plane: SectionPlaneArgs,
-    /// Time to follow each motion; negative: backwards. Transients last long: after a short time a
-    /// regular motion may look chaotic
-    #[arg(long, default_value = "2000", allow_hyphen_values = true, value_parser = parse_float)]
-    pub time: f64,
+    /// Time to follow each motion, 2000 by default; negative: backwards. Transients last long: after a
+    /// short time a regular motion may look chaotic
+    #[arg(long, allow_hyphen_values = true, value_parser = parse_float)]
+    pub time: Option<f64>,
+    /// Number of iterates of a map, 10000 by default
+    #[arg(long, value_name = "N", value_parser = parse_iterates)]
+    pub iterates: Option<u64>,
     #[command(flatten)]
     pub starts: Starts,
     /// Start by exact numbers instead: --state 'ω=[3/7,0,-1/2] γ=[2/7,3/7,6/7]'
@@ -51,11 +54,35 @@ pub struct ExponentsArgs {
 }
 
 pub fn run(options: &ExponentsArgs) -> Result<CommandOutput, String> {
+    if options.subject.reads_map()? {
+        return map_exponents::run(options);
+    }
+    if options.iterates.is_some() {
+        return Err("error: --iterates: the case is no map, and its motions have a time\n\
+                    help: give --time"
+            .to_string());
+    }
     let opened = options.subject.opened()?;
     carry_out(&ExponentsJob::new(options.clone(), opened)?, &options.share, options.target())
 }
 
 impl ExponentsArgs {
+    /// Time to follow each motion.
+    fn time(&self) -> f64 {
+        const TIME: f64 = 2000.0;
+        self.time.unwrap_or(TIME)
+    }
+
+    /// File of all motions.
+    pub fn output(&self) -> Result<Option<Output>, String> {
+        let inputs = [self.subject.case.as_path()].into_iter().chain(self.starts.inputs());
+        let inputs: Vec<_> = inputs.collect();
+        match (&self.out, self.share.part) {
+            (Some(path), None) => Output::new(path, Ending::TABLES, &inputs).map(Some),
+            _ => Ok(None),
+        }
+    }
+
     fn target(&self) -> Target<'_> {
         Target { out: self.out.as_deref(), threads: self.threads.count() }
     }
@@ -85,18 +112,13 @@ pub struct ExponentsJob {
 
 impl ExponentsJob {
     pub(in crate::commands) fn new(options: ExponentsArgs, opened: Opened) -> Result<Self, String> {
-        if options.time == 0.0 || !options.time.is_finite() {
+        if options.time() == 0.0 || !options.time().is_finite() {
             return Err("error: --time: write a number that is not 0".to_string());
         }
         if opened.case.model.system.has_arbitrary_function() {
             return Err(options.subject.told(&FlowError::Arbitrary));
         }
-        let inputs = [options.subject.case.as_path()].into_iter().chain(options.starts.inputs());
-        let inputs: Vec<_> = inputs.collect();
-        let out = match (&options.out, options.share.part) {
-            (Some(path), None) => Some(Output::new(path, Ending::TABLES, &inputs)?),
-            _ => None,
-        };
+        let out = options.output()?;
         Ok(Self { options, opened, out })
     }
 
@@ -130,7 +152,11 @@ impl ExponentsJob {
     fn start(&self, given: Option<&GivenStart>) -> Result<Result<Start, FlowError>, String> {
         let Self { options, opened: Opened { case, .. }, .. } = self;
         let seed = options.subject.seed;
-        let launches = Launches { case, energy: None, pad: None, seed, index: 0 };
+        let fixed = match given {
+            Some(GivenStart::Values(_)) => Vec::new(),
+            _ => options.plane.fixed(case)?,
+        };
+        let launches = Launches { case, fixed: &fixed, pad: None, seed, index: 0 };
         let values = match given {
             None => return Ok(launches.start(&Begin::Drawn(0))),
             Some(GivenStart::State(state)) => {
@@ -159,7 +185,7 @@ impl ExponentsJob {
         threads: usize,
     ) -> Result<Vec<Unit>, String> {
         let bar = Progress::of(starts.len() as u64, "motions");
-        let (model, time) = (&self.opened.case.model, self.options.time);
+        let (model, time) = (&self.opened.case.model, self.options.time());
         let found = liouville_flow::spectra(model, starts, time, threads, &|share| bar.add(share));
         bar.finish();
         let found = found.map_err(|error| self.options.subject.told(&error))?;
@@ -172,7 +198,8 @@ impl Job for ExponentsJob {
     type Unit = Unit;
 
     fn identity(&self) -> Result<Identity, String> {
-        let ExponentsArgs { subject, plane, time, spectrum, one_way, share, .. } = &self.options;
+        let ExponentsArgs { subject, plane, spectrum, one_way, share, .. } = &self.options;
+        let time = self.options.time();
         let given = self.given()?;
         let starts = sha256(&format!("{given:?}"));
         let request = format!(
@@ -202,7 +229,7 @@ impl Job for ExponentsJob {
         let told = |error: FlowError| self.options.subject.told(&error);
         let (case, seed) = (&self.opened.case, self.options.subject.seed);
         let parameters = liouville_flow::fixed_parameters(case, seed, 0).map_err(told)?;
-        let (time, one_way) = (self.options.time, self.options.one_way);
+        let (time, one_way) = (self.options.time(), self.options.one_way);
         let ways = if one_way { 1 } else { 2 };
         let bar = Progress::of((ways * starts.len()) as u64, "motions");
         let motions =

@@ -12,13 +12,13 @@ use super::Progress;
 use super::motion::{rendered, whole, wrong_formula};
 use super::orbit::{MOST_NUMBERS, OrbitArgs, numbered, starts};
 use super::output::Ending;
-use super::{CommandOutput, write};
+use super::write;
 
 /// Number of iterates where none is given.
 const ITERATES: u64 = 1000;
 
-/// Follows the orbits of a map.
-pub fn run(options: &OrbitArgs, case: &Case) -> Result<CommandOutput, String> {
+/// Follows the orbits of a map; returns the report, and whether some were stopped.
+pub fn run(options: &OrbitArgs, case: &Case) -> Result<(String, bool), String> {
     check_options(options)?;
     let subject = &options.subject;
     if case.model.system.has_arbitrary_function() {
@@ -78,8 +78,9 @@ pub fn run(options: &OrbitArgs, case: &Case) -> Result<CommandOutput, String> {
     // Single orbits may end early; if all do, the command fails.
     let mut ended = found.iter().filter_map(|one| one.orbit.as_ref().err());
     let ends = ended.clone().count();
+    let is_stopped = ended.clone().any(|own| matches!(own, IterateError::Stopped { .. }));
     let problem = ended.next();
-    if let Some(problem) = problem.filter(|_| ends == found.len()) {
+    if let Some(problem) = problem.filter(|_| ends == found.len() && !is_stopped) {
         let rows: usize = found.iter().map(|one| one.rows.len()).sum();
         let saved = out.filter(|_| rows > 0);
         let saved =
@@ -98,7 +99,7 @@ pub fn run(options: &OrbitArgs, case: &Case) -> Result<CommandOutput, String> {
         let titles = numbered(titles, found.len()).join(", ");
         format!("{}: {rows} rows of {titles}\n", out.path.display())
     });
-    Ok(CommandOutput { text: text + &saved.unwrap_or_default(), code: 0 })
+    Ok((text + &saved.unwrap_or_default(), is_stopped))
 }
 
 /// Refuses what maps do not have.

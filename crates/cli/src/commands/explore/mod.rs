@@ -7,9 +7,11 @@ pub(super) mod branch;
 pub(super) mod chart;
 mod diagram;
 pub(super) mod exponents;
+mod fixing;
 mod growth;
 pub(super) mod ink;
 mod iterates;
+mod map_exponents;
 pub(super) mod motion;
 mod orbit;
 pub(super) mod output;
@@ -26,6 +28,7 @@ mod surface;
 pub(super) mod sweep;
 mod symmetric;
 mod track;
+mod watching;
 
 use clap::Subcommand;
 
@@ -247,7 +250,7 @@ impl MotionCommand {
     fn limits(&self) -> LimitArgs {
         match self {
             // it reports what was reached
-            Self::Continue(_) => LimitArgs::default(),
+            Self::Continue(_) | Self::Orbit(_) => LimitArgs::default(),
             _ => self.subject().limits,
         }
     }

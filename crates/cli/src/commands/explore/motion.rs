@@ -11,12 +11,15 @@ use liouville::case::{Angle, Case, Direction};
 use liouville::mechanics::components;
 use liouville::number::double_double::DoubleDouble;
 use liouville::number::rational::{Rational, RationalError};
-use liouville_flow::{ChoiceError, FlowError, FormulaMistake, SectionChoice, number_with_pi};
+use liouville_flow::{
+    ChoiceError, Fixed, FlowError, FormulaMistake, SectionChoice, number_with_pi,
+};
 
 use super::LimitArgs;
 use super::colour;
 use super::eval::{Opened, open_text, read_text};
 use super::files::plain;
+use super::fixing;
 use super::output::Ending;
 use super::share::Share;
 
@@ -57,6 +60,15 @@ impl MotionArgs {
     /// Reads the case from its text.
     pub fn read(&self, text: &str) -> Result<Opened, String> {
         self.moving(read_text(&self.case, text, &self.settings)?)
+    }
+
+    /// Whether the case is a map.
+    pub fn reads_map(&self) -> Result<bool, String> {
+        let opened = match &self.text {
+            Some(text) => read_text(&self.case, text, &self.settings)?,
+            None => open_text(&self.case, &self.settings)?,
+        };
+        Ok(opened.case.model.system.is_map())
     }
 
     /// Reads a case that may be a map.
@@ -142,24 +154,40 @@ pub struct SectionPlaneArgs {
     /// Energy; by default that of the case's [section]
     #[arg(long, value_parser = parse_number)]
     pub energy: Option<Rational>,
+    /// Value of an integral that the case claims and that is proved, or of the energy, for all motions:
+    /// --fix J=3.1. The option may be repeated
+    #[arg(long, value_name = "NAME=VALUE", allow_hyphen_values = true)]
+    pub fix: Vec<String>,
     /// Angle of the section: 0, pi/2, pi, 3pi/2, or radians; by default that of the case
     #[arg(long)]
     pub g0: Option<Angle>,
 }
 
 impl SectionPlaneArgs {
-    /// Choices of the options.
-    pub fn choice(&self) -> SectionChoice {
-        SectionChoice {
-            g0: self.g0.clone(),
-            energy: self.energy.clone(),
-            ..SectionChoice::default()
+    /// Functions whose values all motions share.
+    pub fn fixed(&self, case: &Case) -> Result<Vec<Fixed>, String> {
+        fixing::fixed(case, self.energy.as_ref(), &self.fix)
+    }
+
+    /// Choices of the options, of a section g = g₀.
+    pub fn choice(&self) -> Result<SectionChoice, String> {
+        match self.fix.is_empty() {
+            true => Ok(SectionChoice {
+                g0: self.g0.clone(),
+                energy: self.energy.clone(),
+                ..SectionChoice::default()
+            }),
+            false => {
+                Err("error: --fix: the section g = g₀ of a rolling body has an energy alone\n\
+                          help: give --energy, or a surface by --section"
+                    .to_string())
+            }
         }
     }
 
     /// Angle and energy of the section.
     pub fn of(&self, case: &Case) -> Result<(Angle, Rational), String> {
-        self.choice().place(case).map_err(|error| wrong_choice(&error))
+        self.choice()?.place(case).map_err(|error| wrong_choice(&error))
     }
 }
 

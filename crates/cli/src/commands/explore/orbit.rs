@@ -22,6 +22,7 @@ use super::motion::{MotionArgs, Threads, parse_number, parse_positive, rendered,
 use super::output::{Ending, Output};
 use super::starts::{GivenStart, Named, Starts, misfit};
 use super::track;
+use super::watching::watched;
 use super::{CommandOutput, write};
 
 /// Number of intervals between samples where no interval is given.
@@ -101,14 +102,20 @@ impl Digits {
 }
 
 /// Reads a number of iterates, also as 1e6.
-fn parse_iterates(text: &str) -> Result<u64, String> {
+pub fn parse_iterates(text: &str) -> Result<u64, String> {
     let whole = parse_number(text).ok().filter(|count| count.to_integer().is_some());
     let count = whole.map(|count| count.to_f64().0);
     let count = count.filter(|count| (1.0..=MOST_ITERATES).contains(count));
     count.map(|count| count as u64).ok_or("write a whole number from 1 to 1e10".to_string())
 }
 
+/// Follows the motions, until a limit or Ctrl-C ends them early.
 pub fn run(options: &OrbitArgs) -> Result<CommandOutput, String> {
+    watched(options.subject.limits, || answer(options))
+}
+
+/// Follows the motions and writes their file; returns the report, and whether some were stopped.
+fn answer(options: &OrbitArgs) -> Result<(String, bool), String> {
     let subject = &options.subject;
     let case = subject.open_with_maps()?;
     if case.model.system.is_map() {
@@ -158,7 +165,9 @@ pub fn run(options: &OrbitArgs) -> Result<CommandOutput, String> {
             (found, Some(points))
         }
         false => {
-            let sampling = Sampling { columns: &columns, every };
+            let is_picture = out.as_ref().is_some_and(|out| out.ending.is_picture());
+            let with_steps = is_picture && options.every.is_none();
+            let sampling = Sampling { columns: &columns, every, with_steps };
             let sampling = out.is_some().then_some(&sampling);
             let followed = (&time, precision);
             let progress = |share| bar.add(share);
@@ -190,9 +199,11 @@ pub fn run(options: &OrbitArgs) -> Result<CommandOutput, String> {
         save(&case, (options, &time), out, (&titles[..], plot), &found)?;
     }
     let ended = found.iter().filter_map(|one| one.orbit.as_ref().err());
+    let is_stopped = ended.clone().any(|problem| matches!(problem, FlowError::StoppedAt { .. }));
     // Single motions may end early; if all do, the command fails.
     if let Some(problem) = ended.clone().next()
         && ended.count() == found.len()
+        && !is_stopped
     {
         let rows: usize = found.iter().map(|one| one.rows.len()).sum();
         let saved = out.filter(|_| rows > 0);
@@ -221,7 +232,7 @@ pub fn run(options: &OrbitArgs) -> Result<CommandOutput, String> {
             numbered(&titles, found.len()).join(", ")
         )
     });
-    Ok(CommandOutput { text: text + &saved.unwrap_or_default(), code: 0 })
+    Ok((text + &saved.unwrap_or_default(), is_stopped))
 }
 
 fn columns(case: &Case, options: &OrbitArgs) -> Result<Columns, String> {
@@ -237,7 +248,7 @@ fn columns(case: &Case, options: &OrbitArgs) -> Result<Columns, String> {
 pub fn starts(case: &Case, options: &OrbitArgs) -> Result<Named, String> {
     let subject = &options.subject;
     let launches =
-        Launches { case, energy: None, pad: None, seed: subject.seed, index: options.index };
+        Launches { case, fixed: &[], pad: None, seed: subject.seed, index: options.index };
     let one = |begin: &Begin| launches.start(begin);
     if let Some(text) = &options.state {
         let state = verdict::read_state(case, text).map_err(|error| wrong_state(&error))?;
@@ -249,7 +260,12 @@ pub fn starts(case: &Case, options: &OrbitArgs) -> Result<Named, String> {
             1 => "drawn".to_string(),
             _ => format!("drawn, {index}"),
         };
-        let all = (0..options.orbits as u64).map(|k| options.index + k);
+        let Some(end) = options.index.checked_add(options.orbits as u64) else {
+            return Err("error: --index: the last state has no number\n\
+                        help: give a smaller --index, or fewer --orbits"
+                .to_string());
+        };
+        let all = options.index..end;
         return Ok(all.map(|index| (name(index), one(&Begin::Drawn(index)))).collect());
     }
     let start = |(name, given): (String, GivenStart)| match given {

@@ -10,6 +10,7 @@ use liouville_flow::{
 };
 use serde_json::json;
 
+use super::fixing::integrals;
 use super::motion::{MotionArgs, SectionPlaneArgs, Threads, parse_number};
 use super::starts::{GivenStart, Starts, misfit};
 use super::surface::read_surface;
@@ -184,9 +185,9 @@ fn near_state(
     state: Vec<Rational>,
 ) -> Result<FoundOrbit, String> {
     let told = |error: FlowError| options.subject.told(&error);
-    let energy = options.plane.energy.as_ref();
+    let fixed = options.plane.fixed(case)?;
     let seed = options.subject.seed;
-    let launches = Launches { case, energy, pad: None, seed, index: 0 };
+    let launches = Launches { case, fixed: &fixed, pad: None, seed, index: 0 };
     let start = launches.start(&Begin::State(state)).map_err(told)?;
     let count = options.period as usize;
     let (start, time, crossings) = match (surface, time) {
@@ -207,6 +208,6 @@ fn near_state(
         }
     };
     let surface = surface.filter(|_| crossings.is_some());
-    let cycle = closed_orbit(case, &start, time, surface).map_err(told)?;
+    let cycle = closed_orbit(case, &start, time, surface, &integrals(&fixed)).map_err(told)?;
     Ok(FoundOrbit { point: None, crossings, cycle, proof: None })
 }

@@ -257,7 +257,7 @@ fn through_angle(options: &RotationArgs, case: &Case, line: &Line) -> Result<Fol
         skip: Some(options.crossing.skip.unwrap_or(0)),
         starts,
         seed: options.subject.seed,
-        ..options.crossing.plane.choice()
+        ..options.crossing.plane.choice()?
     };
     let request = choice.request(case).map_err(|error| wrong_choice(&error))?;
     let bar = Progress::of(line.count as u64, "motions");
@@ -299,9 +299,10 @@ fn through_surface(
         }
     };
     let direction = options.crossing.direction.unwrap_or(Direction::Up);
+    let fixed = options.crossing.plane.fixed(case)?;
     let launches = Launches {
         case,
-        energy: options.crossing.plane.energy.as_ref(),
+        fixed: &fixed,
         pad: Some(Launchpad { surface: &surface, axes: &axes, direction }),
         seed: options.subject.seed,
         index: 0,

@@ -9,7 +9,7 @@ use liouville::number::double_double::DoubleDouble;
 use liouville::part::Part;
 use liouville_draw::{math, plain};
 use liouville_flow::{
-    Begin, Columns, CrossingSurface, FlowError, Launches, Launchpad, Lexicon, Precision,
+    Begin, Columns, CrossingSurface, Fixed, FlowError, Launches, Launchpad, Lexicon, Precision,
     SurfaceOrbit, SurfaceRequest,
 };
 
@@ -39,7 +39,8 @@ pub fn compute(
         return Err("error: a picture needs two axes\nhelp: write --axes 'y, z'".to_string());
     }
     let begins = plan.begins(case, options)?;
-    let launches = plan.launches(case, options);
+    let fixed = options.crossing.plane.fixed(case)?;
+    let launches = plan.launches(case, (&fixed, options));
     let own = part.of(&begins);
     let starts: Vec<_> = own.iter().map(|(_, begin)| launches.start(begin)).collect();
     let names = own.iter().map(|(name, _)| name.clone());
@@ -87,13 +88,14 @@ pub fn drawn(
     }
     let cells = options.shade.then(|| options.ink.cells(wish.columns, 0.62));
     let report = SurfaceReport { case, request: &request, names: &names, orbits: &orbits };
-    let energy = options.crossing.plane.energy.as_ref();
-    let energy = energy.map(|energy| facts::equation("energy", &energy.to_string()));
+    let fixed = options.crossing.plane.fixed(case)?;
+    let fixed =
+        fixed.iter().map(|own| facts::equation(own.function.name(), &own.value.to_string()));
     let section = plain("section ").then(math(request.surface.text()));
     Ok(Drawn {
         title: case.title.clone(),
         facts: facts::listed(
-            [section].into_iter().chain(energy).chain(facts::parameters(case, &[])),
+            [section].into_iter().chain(fixed).chain(facts::parameters(case, &[])),
         ),
         text: match options.subject.json {
             true => report.json().map_err(|error| format!("error: {error}"))?,
@@ -150,11 +152,15 @@ impl Plan {
         }
     }
 
-    fn launches<'p>(&'p self, case: &'p Case, options: &'p SectionArgs) -> Launches<'p> {
+    fn launches<'p>(
+        &'p self,
+        case: &'p Case,
+        (fixed, options): (&'p [Fixed], &SectionArgs),
+    ) -> Launches<'p> {
         let Self { surface, axes, direction } = self;
         Launches {
             case,
-            energy: options.crossing.plane.energy.as_ref(),
+            fixed,
             pad: Some(Launchpad { surface, axes, direction: *direction }),
             seed: options.subject.seed,
             index: 0,

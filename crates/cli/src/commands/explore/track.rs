@@ -49,7 +49,7 @@ pub fn follow(
     let mut between = FEWEST;
     loop {
         let step = every * &Rational::new(1, between);
-        let sampling = Sampling { columns: &columns, every: step.clone() };
+        let sampling = Sampling { columns: &columns, every: step.clone(), with_steps: false };
         let followed = (time, Precision::Float);
         let found =
             liouville_flow::orbits(case, starts, followed, Some(&sampling), threads, progress);

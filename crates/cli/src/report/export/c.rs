@@ -89,6 +89,7 @@ impl Target for C {
             "sin",
             "cos",
             "atan",
+            "tanh",
             "pow",
             "NAN",
             "INFINITY",
@@ -128,6 +129,10 @@ impl Target for C {
             other => usual(other),
         };
         TargetTerm::atom(format!("{name}({})", argument.text))
+    }
+
+    fn tangent(&self, argument: &TargetTerm) -> Option<TargetTerm> {
+        Some(TargetTerm::atom(format!("tanh({})", argument.text)))
     }
 
     fn power(&self, base: &TargetTerm, exponent: &Rational) -> TargetTerm {

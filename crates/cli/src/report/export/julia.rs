@@ -93,6 +93,10 @@ impl Target for Julia {
         TargetTerm::atom(format!("{name}({})", argument.text))
     }
 
+    fn tangent(&self, argument: &TargetTerm) -> Option<TargetTerm> {
+        Some(TargetTerm::atom(format!("tanh({})", argument.text)))
+    }
+
     fn power(&self, base: &TargetTerm, exponent: &Rational) -> TargetTerm {
         let above = exponent.abs();
         let term = match above.to_integer().filter(|_| is_plain(exponent)) {

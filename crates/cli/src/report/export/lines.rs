@@ -8,6 +8,7 @@ use liouville::program::{FunctionSubject, NamedFunction};
 
 use super::ExportedCase;
 use super::names::ExportNames;
+use super::tangents;
 use super::target::{Target, TargetTerm};
 
 /// A function as lines of code.
@@ -36,10 +37,13 @@ pub fn body(
     let graph = &export.program.graph;
     let name = names.function(target, export, function.part);
     let needed = function.outputs.iter().chain(&function.required).copied();
-    let reached = graph.reached(needed.clone());
+    let has_tangent = target.tangent(&TargetTerm::atom("")).is_some();
+    let reached = tangents::reached(graph, needed.clone(), has_tangent);
     let mut uses = vec![0usize; graph.len()];
-    for (_, step) in graph.steps().enumerate().filter(|(place, _)| reached[*place]) {
-        step.arguments().for_each(|place| uses[place] += 1);
+    for place in (0..graph.len()).filter(|place| reached[*place]) {
+        for part in tangents::parts(graph, place, has_tangent) {
+            uses[part] += 1;
+        }
     }
     for value in needed {
         uses[graph.place(value)] += 1;
@@ -53,7 +57,10 @@ pub fn body(
                 inputs.push(input);
                 TargetTerm::atom(&names.inputs[input])
             }
-            step => writer.term(step),
+            step => match tangents::tangent(graph, place).filter(|_| has_tangent) {
+                Some(u) => writer.tangent(u),
+                None => writer.term(step),
+            },
         };
         let is_computed = graph.step(place).arguments().next().is_some();
         let own = names.of_step(place);
@@ -121,6 +128,14 @@ impl LineWriter<'_> {
         };
         term.weight = weight.max(1);
         term
+    }
+
+    /// tanh u
+    fn tangent(&self, u: usize) -> TargetTerm {
+        let argument = self.at(u);
+        let weight = argument.weight.max(1);
+        let term = self.target.tangent(&argument).unwrap_or(argument);
+        TargetTerm { weight, ..term }
     }
 
     /// a/c where b is 1/c and written nowhere else.

@@ -111,6 +111,10 @@ impl Target for Matlab {
         TargetTerm::atom(format!("{name}({})", argument.text))
     }
 
+    fn tangent(&self, argument: &TargetTerm) -> Option<TargetTerm> {
+        Some(TargetTerm::atom(format!("tanh({})", argument.text)))
+    }
+
     fn power(&self, base: &TargetTerm, exponent: &Rational) -> TargetTerm {
         let above = self.number(&exponent.abs());
         let (text, rank) = match is_plain(exponent) {

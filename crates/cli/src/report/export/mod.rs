@@ -10,6 +10,7 @@ mod matlab;
 mod names;
 mod python;
 mod rust;
+mod tangents;
 mod target;
 
 use liouville::case::Case;

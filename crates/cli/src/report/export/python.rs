@@ -110,6 +110,11 @@ impl Target for Python {
         TargetTerm::atom(format!("{}.{name}({})", self.library(), argument.text))
     }
 
+    fn tangent(&self, argument: &TargetTerm) -> Option<TargetTerm> {
+        let name = format!("{}.tanh({})", self.library(), argument.text);
+        (!self.is_symbolic).then(|| TargetTerm::atom(name))
+    }
+
     fn power(&self, base: &TargetTerm, exponent: &Rational) -> TargetTerm {
         let raised = self.number(exponent).at_least(Rank::Atom);
         // A float to a fractional power would be complex where the base is negative.

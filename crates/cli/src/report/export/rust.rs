@@ -115,6 +115,10 @@ impl Target for Rust {
         }
     }
 
+    fn tangent(&self, argument: &TargetTerm) -> Option<TargetTerm> {
+        Some(TargetTerm::atom(format!("f64::tanh({})", argument.text)))
+    }
+
     fn power(&self, base: &TargetTerm, exponent: &Rational) -> TargetTerm {
         let name = if is_plain(exponent) { "f64::powf" } else { "power" };
         let text = format!("{name}({}, {})", base.text, self.number(&exponent.abs()).text);

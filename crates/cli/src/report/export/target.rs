@@ -91,6 +91,11 @@ pub trait Target {
     /// f(x), for functions other than the sign and the reciprocal.
     fn call(&self, function: UnaryFunction, argument: &TargetTerm) -> TargetTerm;
 
+    /// tanh x; `None` where it is written as a quotient of exponential functions.
+    fn tangent(&self, _: &TargetTerm) -> Option<TargetTerm> {
+        None
+    }
+
     /// x^q for a constant q.
     fn power(&self, base: &TargetTerm, exponent: &Rational) -> TargetTerm;
 

@@ -66,7 +66,7 @@ fn an_energy_that_no_state_has_is_told_with_those_that_they_have() {
     let case = written("energies", PENDULUM);
     let section = ["motion", "section", &case, "--section", "θ=0", "--energy", "-100"];
     let message =
-        contains("no state with the energy -100").and(contains("drawn states have energies"));
+        contains("no state with energy = -100").and(contains("drawn states have values from"));
     liouville(&section).assert().code(2).stderr(message);
 }
 

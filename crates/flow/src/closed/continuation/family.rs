@@ -2,8 +2,8 @@
 //! the state and by the quantity that varies.
 //!
 //! The quantity that varies is centre + half·λ, and λ a further row of the state whose rate is 0. A
-//! point of the section obeys G(x, λ) = 0: level functions, E - h where the energy is kept, and the
-//! function of the section, in this order.
+//! point of the section obeys G(x, λ) = 0: level functions, E - h where an energy or integral E is kept,
+//! and the function of the section, in this order.
 
 use nalgebra::{DMatrix, DVector};
 use num_dual::Dual;
@@ -11,6 +11,7 @@ use num_dual::Dual;
 use super::request::{BranchRequest, BranchSection};
 use crate::error::FlowError;
 use crate::motion::columns::Columns;
+use crate::motion::conserved::Conserved;
 use crate::motion::open::OpenModel;
 use crate::motion::recorded::{Loose, extended_program, filled};
 use crate::motion::start::{complement, values_and_slopes};
@@ -51,15 +52,12 @@ pub struct Frame {
     pub drift: Vec<f64>,
 }
 
-/// Energy of a family.
+/// Energy or integral of a family.
 #[derive(Clone, Debug)]
-pub enum KeptEnergy {
-    /// No energy is kept.
-    None,
-    /// The energy has this value.
-    Fixed(DoubleDouble),
-    /// The energy is the quantity that varies.
-    Varied,
+pub struct KeptFunction {
+    pub function: Conserved,
+    /// Value on all orbits; `None` for the quantity that varies.
+    pub value: Option<DoubleDouble>,
 }
 
 /// Quantities reported at each point.
@@ -83,8 +81,8 @@ pub struct Family {
 }
 
 impl Family {
-    /// Prepares the family of a request; `energy` tells what is kept.
-    pub fn new(request: &BranchRequest<'_>, energy: &KeptEnergy) -> Result<Self, FlowError> {
+    /// Prepares the family of a request, on which these functions are kept.
+    pub fn new(request: &BranchRequest<'_>, kept: &[KeptFunction]) -> Result<Self, FlowError> {
         let base = match request.section {
             BranchSection::Andoyer(_) => &request.case.model,
             BranchSection::Surface(surface) => surface.model(),
@@ -109,7 +107,7 @@ impl Family {
             Some(columns) => Gauge::Columns(gauge(columns, drawn, &indices, &loose)?),
         };
         let functions = Functions { model: &model, parameters: &parameters, loose: &loose };
-        let (functions, equations) = functions.record(request, energy, &range)?;
+        let (functions, equations) = functions.record(request, kept, &range)?;
         let count = dimension.saturating_sub(equations);
         let rates = |lambda: &Expr, state: &[Expr]| {
             let free = filled(&parameters, &loose, &[*lambda]);
@@ -292,7 +290,7 @@ impl Functions<'_> {
     fn record(
         &self,
         request: &BranchRequest<'_>,
-        energy: &KeptEnergy,
+        kept: &[KeptFunction],
         [centre, half]: &[Rational; 2],
     ) -> Result<(Tape, usize), FlowError> {
         let dimension = self.model.dimension();
@@ -307,18 +305,14 @@ impl Functions<'_> {
                 let level = self.model.level.iter();
                 let mut all: Vec<Dual<Expr>> =
                     level.map(|equation| phase.level_function(&equation.function)).collect();
-                let own = || self.model.system.energy(&phase);
-                match energy {
-                    KeptEnergy::None => {}
-                    KeptEnergy::Fixed(value) => {
-                        let [high, low] = [value.hi, value.lo].map(exact::<Dual<Expr>>);
-                        all.extend(own().map(|own| own - high - low));
-                    }
-                    KeptEnergy::Varied => {
-                        let wanted: Dual<Expr> =
-                            Dual::rational(centre) + Dual::rational(half) * row[dimension];
-                        all.extend(own().map(|own| own - wanted));
-                    }
+                for KeptFunction { function, value } in kept {
+                    let wanted = match value {
+                        Some(value) => {
+                            exact::<Dual<Expr>>(value.hi) + exact::<Dual<Expr>>(value.lo)
+                        }
+                        None => Dual::rational(centre) + Dual::rational(half) * row[dimension],
+                    };
+                    all.extend(function.value(&phase).map(|own| own - wanted));
                 }
                 all.push(match request.section {
                     BranchSection::Andoyer(g0) => section_functions(&phase, g0)[0],

@@ -1,4 +1,4 @@
-//! Branches of closed orbits: one of them followed while a parameter or the energy varies.
+//! Branches of closed orbits: one of them followed while a parameter, the energy or an integral varies.
 //!
 //! ```text
 //! point, λ ─ direction ─▶ guess ─ Newton, in a plane across ─▶ point, λ ─ functions change sign ─▶ bifurcation
@@ -19,15 +19,17 @@ pub use request::{
     Bifurcation, Branch, BranchEnd, BranchPoint, BranchRequest, BranchSection, declared_range,
 };
 
-use family::{Family, KeptEnergy, Place, norm};
+use family::{Family, KeptFunction, Place, norm};
 use linear::Plane;
 use node::Node;
 use solve::{Solver, Trouble};
 use walk::{Half, Walk};
 
 use crate::error::FlowError;
+use crate::motion::conserved::Conserved;
 use crate::motion::kept::keeps_energy;
 use crate::motion::start::{LevelFunctions, two_sided};
+use crate::section::coordinate::Coordinate;
 use liouville::mechanics::{ParameterOrigin, components};
 use liouville::number::double_double::DoubleDouble;
 use liouville::number::rational::Rational;
@@ -41,13 +43,13 @@ pub fn branch(
     progress: &dyn Fn(&BranchPoint),
 ) -> Result<Branch, FlowError> {
     two_sided(request.case)?;
-    let (energy, value) = kept(request)?;
+    let (functions, value) = kept(request)?;
     let [from, to] = &request.range;
     if value < *from || value > *to {
         let [value, from, to] = [&value, from, to].map(|x| x.to_f64().0);
         return Err(FlowError::OutsideRange { value, from, to });
     }
-    let family = Family::new(request, &energy)?;
+    let family = Family::new(request, &functions)?;
     let size = norm(request.start.state.iter().map(|x| x.hi)).max(f64::MIN_POSITIVE);
     let solver = Solver { family: &family, size };
     let first = first(&solver, request, &value).map_err(|trouble| match trouble {
@@ -81,28 +83,44 @@ pub fn branch(
     })
 }
 
-/// The energy that is kept, and the value of what varies at the start.
-fn kept(request: &BranchRequest<'_>) -> Result<(KeptEnergy, Rational), FlowError> {
+/// The functions that are kept, and the value of what varies at the start.
+fn kept(request: &BranchRequest<'_>) -> Result<(Vec<KeptFunction>, Rational), FlowError> {
     let (model, start) = (&request.case.model, &request.start);
-    let functions = LevelFunctions::with(model, &start.parameters, &|phase| {
-        model.system.energy(phase).into_iter().collect()
-    })?;
-    let place = model.level.len();
     let is_kept = keeps_energy(request.case, model, start, request.time)?;
-    let own = || functions.at(&start.state).0[place];
-    if let Some(value) = own_value(request) {
-        let energy = if is_kept { KeptEnergy::Fixed(own()) } else { KeptEnergy::None };
-        return Ok((energy, value));
-    }
-    match (functions.len() > place, is_kept) {
-        (false, _) => Err(FlowError::NoEnergy),
-        (_, false) => Err(FlowError::EnergyChanges),
-        _ => {
-            let own = Rational::from_f64(own().hi);
-            let value = request.energy.clone().or(own).ok_or(FlowError::NoStart)?;
-            Ok((KeptEnergy::Varied, value))
+    let mut functions: Vec<Conserved> = is_kept.then_some(Conserved::Energy).into_iter().collect();
+    functions.extend(request.integrals.iter().cloned());
+    let varied = match request.varied {
+        Coordinate::Energy if !model.system.has_energy() => return Err(FlowError::NoEnergy),
+        Coordinate::Energy if !is_kept => return Err(FlowError::EnergyChanges),
+        Coordinate::Energy => Some(Conserved::Energy),
+        Coordinate::Integral(index) => {
+            Some(Conserved::of_claim(request.case, index).ok_or(FlowError::NoStart)?)
         }
+        _ => None,
+    };
+    if let Some(varied) = &varied
+        && functions.iter().all(|own| own.name() != varied.name())
+    {
+        // An integral that varies along orbits isolated at their energy takes its place.
+        functions.retain(|own| !matches!(own, Conserved::Energy));
+        functions.push(varied.clone());
     }
+    let values = LevelFunctions::with(model, &start.parameters, &|phase| {
+        functions.iter().filter_map(|own| own.value(phase)).collect()
+    })?;
+    let values = values.at(&start.state).0.split_off(model.level.len());
+    let is_varied = |own: &Conserved| varied.as_ref().is_some_and(|it| it.name() == own.name());
+    let own = functions.iter().zip(&values).find(|(own, _)| is_varied(own));
+    let given = request.fixed.iter().find(|fixed| is_varied(&fixed.function));
+    let value = match own {
+        Some((_, value)) => given.map(|fixed| fixed.value.clone()).or(Rational::from_f64(value.hi)),
+        None => own_value(request),
+    };
+    let kept = functions.into_iter().zip(values).map(|(function, value)| {
+        let value = (!is_varied(&function)).then_some(value);
+        KeptFunction { function, value }
+    });
+    Ok((kept.collect(), value.ok_or(FlowError::NoStart)?))
 }
 
 /// Value of the component of a parameter that varies, at the start.

@@ -4,6 +4,7 @@ use crate::closed::multiplier::{CycleKind, Multiplier};
 use crate::closed::through::MeasuredNumber;
 use crate::error::FlowError;
 use crate::motion::columns::Columns;
+use crate::motion::conserved::{Conserved, Fixed};
 use crate::motion::start::Start;
 use crate::section::coordinate::Coordinate;
 use crate::section::surface::CrossingSurface;
@@ -28,12 +29,14 @@ pub struct BranchRequest<'r> {
     pub section: BranchSection<'r>,
     /// Quantities reported at each point; l and L/G of a rolling body if none are given.
     pub columns: Option<Columns>,
-    /// Quantity that varies: a component of a parameter, or the energy.
+    /// Quantity that varies: a component of a parameter, the energy, or an integral.
     pub varied: Coordinate,
     /// Ends of its range, the lower one first.
     pub range: [Rational; 2],
-    /// Energy of the start, where it is known exactly.
-    pub energy: Option<Rational>,
+    /// Values of functions at the start, where they are known exactly.
+    pub fixed: Vec<Fixed>,
+    /// Integrals that are held, besides the energy.
+    pub integrals: Vec<Conserved>,
     /// Point of a closed orbit on the section.
     pub start: Start,
     /// Time after which it closes.
@@ -88,7 +91,7 @@ pub struct BranchPoint {
     pub trace: MeasuredNumber,
     /// Product of the multipliers.
     pub product: MeasuredNumber,
-    /// Multipliers besides 1 along the orbit and 1 across the levels of the energy.
+    /// Multipliers besides 1 along the orbit and 1 across the levels of what is kept.
     pub multipliers: Vec<Multiplier>,
     /// Stability, where the errors allow a statement.
     pub kind: Option<CycleKind>,

@@ -90,6 +90,11 @@ impl<T: SeriesNumber> Ends<T> {
         Self { length, largest, first: polynomial[0], last, rates, tails, shape }
     }
 
+    /// Whether bounds of the terms exclude that a lane's function vanishes, or turns, or bends.
+    pub fn is_simple(&self, lane: usize) -> bool {
+        self.shape.is_simple(lane)
+    }
+
     /// Largest term of a lane's polynomial.
     pub fn largest(&self, lane: usize) -> f64 {
         self.largest.lane(lane).leading()

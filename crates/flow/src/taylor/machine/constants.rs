@@ -62,9 +62,9 @@ impl<T: Packed> Constants<T> {
         slopes.iter_mut().zip(&code.terms).for_each(|(own, term)| *own = term.slope);
     }
 
-    /// Copies 1/n and 1/(n + 1).
-    pub(super) fn at_order(&mut self, n: usize, inverses: &[T]) {
-        self.list[..2].copy_from_slice(&inverses[n..n + 2]);
+    /// Copies 1/n, and the unit of time over n + 1.
+    pub(super) fn at_order(&mut self, n: usize, [inverses, advances]: [&[T]; 2]) {
+        self.list[..2].copy_from_slice(&[inverses[n], advances[n + 1]]);
     }
 
     /// Sets the slopes of the terms n x_n.

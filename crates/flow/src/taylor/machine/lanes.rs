@@ -74,7 +74,7 @@ impl LaneMachine {
 
     /// Computes order 0 of all rows and order 1 of the state, with the slopes. Returns `false` if
     /// there is no code for that.
-    pub(crate) fn begin(&mut self, inverses: &[Block], memory: &mut [Block]) -> bool {
+    pub(crate) fn begin(&mut self, inverses: [&[Block]; 2], memory: &mut [Block]) -> bool {
         self.constants.at_order(0, inverses);
         let Some(values) = &self.values else { return false };
         for first in self.parts() {
@@ -99,7 +99,7 @@ impl LaneMachine {
     pub(crate) fn run(
         &mut self,
         code: &BoundProgram<Block>,
-        inverses: &[Block],
+        inverses: [&[Block]; 2],
         memory: &mut [Block],
     ) {
         // Order 1 has no inner sums.

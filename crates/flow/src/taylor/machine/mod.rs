@@ -70,7 +70,7 @@ impl TaylorCode {
     /// Computes order 0 of all rows and order 1 of the state, with the slopes. Returns `false` if
     /// there is no code for that.
     #[inline(always)]
-    pub(crate) fn begin(&mut self, inverses: &[f64], memory: &mut [f64]) -> bool {
+    pub(crate) fn begin(&mut self, inverses: [&[f64]; 2], memory: &mut [f64]) -> bool {
         let Some(values) = &self.values else { return false };
         self.constants.at_order(0, inverses);
         values.call(CallMemory {
@@ -92,7 +92,12 @@ impl TaylorCode {
     /// Computes orders 1 to `order` - 1 of all rows, and up to `order` of the state, from what
     /// `begin` made.
     #[inline(always)]
-    pub(crate) fn run(&mut self, code: &BoundProgram<f64>, inverses: &[f64], memory: &mut [f64]) {
+    pub(crate) fn run(
+        &mut self,
+        code: &BoundProgram<f64>,
+        inverses: [&[f64]; 2],
+        memory: &mut [f64],
+    ) {
         self.inner.fill(0.0);
         for n in 1..self.order {
             let copies = |n: usize| f64::copied(self.orders, n);

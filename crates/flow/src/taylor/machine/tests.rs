@@ -150,7 +150,8 @@ fn memory_that_is_too_small_is_refused() {
     let (_, program) = programs().remove(0);
     let series = Series::<f64>::new(&program, 20);
     let Some(mut machine) = TaylorCode::new(&series.code, 20) else { return };
-    let run = move || machine.run(&series.code, &series.inverses, &mut [0.0; 40]);
+    let run =
+        move || machine.run(&series.code, [&series.inverses, &series.advances], &mut [0.0; 40]);
     let refused = std::panic::catch_unwind(std::panic::AssertUnwindSafe(run));
     let refused = refused.expect_err("what it would touch is not there");
     let message = refused.downcast_ref::<String>().expect("a message");

@@ -6,7 +6,7 @@ use std::path::Path;
 use liouville::case::{Case, FixedLine};
 use liouville::number::rational::Rational;
 use liouville_flow::{
-    Bifurcation, Branch, BranchRequest, BranchSection, Coordinate, FlowError, SectionMap,
+    Bifurcation, Branch, BranchRequest, BranchSection, Coordinate, Fixed, FlowError, SectionMap,
     SymmetricOrbits, SymmetricRequest, branch, symmetric_orbits,
 };
 
@@ -28,7 +28,8 @@ fn follow(case: &Case, near: [f64; 2], varied: &str, range: [&str; 2]) -> Branch
         columns: None,
         varied: Coordinate::of_branch(case, varied).expect("it may vary").1,
         range: range.map(number),
-        energy: Some(plan.energy.clone()),
+        fixed: vec![Fixed::energy(plan.energy.clone())],
+        integrals: Vec::new(),
         time: cycle.period.value,
         start: cycle.start,
         count: 60,

@@ -218,3 +218,19 @@ fn a_time_of_too_many_steps_is_given_up() {
     let end = found.expect("a motion").end[0].hi;
     assert!((end / 1e15 - 1.0).abs() < 1e-9, "x = √(1 + t²), not {end}");
 }
+
+#[test]
+fn a_source_that_turns_escapes_and_its_focus_is_an_unstable_rest() {
+    // Equal exponents do not align vectors.
+    let case = parse(
+        "title = 'a'\n[state]\nx = '-2..2'\ny = '-2..2'\nz = '-2..2'\n[field]\n\
+         \"x'\" = 'x - 5*y'\n\"y'\" = '5*x + y'\n\"z'\" = '-z'\n",
+    );
+    for (begin, expected) in
+        [("x=1 y=0 z=1", Character::Escape), ("x=0 y=0 z=0", Character::UnstableRest)]
+    {
+        let motion = Variational::new(&case.model, &start(&case, begin)).expect("a motion");
+        let found = motion.exponents(200.0).expect("exponents");
+        assert_eq!(found.character, expected, "{begin}: {found:?}");
+    }
+}

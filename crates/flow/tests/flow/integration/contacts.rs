@@ -52,6 +52,21 @@ fn the_function_of_the_floor_may_be_any_that_has_its_sign() {
 }
 
 #[test]
+fn nothing_falls_through_the_floor_where_force_and_reaction_are_0_for_a_while() {
+    for r in ["x", "sinh(x)", "atan(3*x)"] {
+        for (f, begin) in [
+            ("-1/2*max(0, cos(t) - 1/5)", "x=0 t=0"),
+            ("(sin(t/3) - 1)/3 + 1/10^12", "x=1/2 t=0"),
+            ("-abs(sin(t))/3", "x=1 t=0"),
+        ] {
+            let found = followed(&floor(f, r), begin, 20.0, Precision::Float);
+            let x = found.end[0].hi;
+            assert!(x.abs() < 1e-11, "{f}, {r}: {x}");
+        }
+    }
+}
+
+#[test]
 fn a_reaction_of_high_degree_vanishes_at_the_right_time() {
     let case = floor("-1/1000+t^41/10^20", "x");
     let found = followed(&case, "x=1/1000 t=-2", 6.0, Precision::Float);

@@ -13,7 +13,7 @@ fn found(case: &Case, [x, y]: [&str; 2], count: usize, time: f64) -> Basins {
     let request = BasinRequest {
         axes: &[axis(x), axis(y)],
         base: &base,
-        energy: None,
+        fixed: &[],
         columns: &columns,
         time,
         seed: 1,

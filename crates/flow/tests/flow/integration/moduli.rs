@@ -218,3 +218,91 @@ fn gaps_in_a_series_hide_nothing() {
     let steep = field(&[("x", "1"), ("y", "1/(1 + exp(-20*exp(-x^4)))")]);
     assert!(followed(&steep, "x=0 y=1", 4.0, Precision::Float).is_ok(), "no singularity");
 }
+
+#[test]
+fn the_smaller_of_two_values_keeps_its_digits() {
+    for (rate, begin, time, end) in [
+        ("max(x, -1)", "x=1/10^20 y=0", 50.0, 50f64.exp() * 1e-20),
+        ("min(1, x)", "x=1/10^12 y=0", 26.0, 26f64.exp() * 1e-12),
+        ("min(max(x, -1), 1)", "x=1/10^14 y=0", 40.0, 41.0 - 14.0 * 10f64.ln()),
+        ("sinh(x)", "x=1/10^20 y=0", 45.0, 2.0 * (45f64.exp() * 5e-21).atanh()),
+        ("-sinh(x)", "x=1 y=0", 45.0, 2.0 * ((-45f64).exp() * 0.5f64.tanh()).atanh()),
+        ("asinh(x)", "x=1/10^20 y=0", 40.0, 40f64.exp() * 1e-20),
+        ("atanh(x)", "x=1/10^20 y=0", 40.0, 40f64.exp() * 1e-20),
+        ("-tanh(x)", "x=1 y=0", 30.0, ((-30f64).exp() * 1f64.sinh()).asinh()),
+        ("tanh(x)", "x=1/10^30 y=0", 30.0, 30f64.exp() * 1e-30),
+    ] {
+        let case = field(&[("x", rate), ("y", "0")]);
+        for precision in BOTH {
+            let found = followed(&case, begin, time, precision).expect("a motion").end[0].hi;
+            assert!((found / end - 1.0).abs() < 1e-6, "{rate}, {precision:?}: {found}, not {end}");
+        }
+    }
+}
+
+#[test]
+fn functions_that_are_0_far_out_make_no_step_too_short() {
+    for rate in ["max(0, 1/(1+exp(50*x)))", "0/(1+exp(50*x))", "min(1, 0/(1+exp(50*x)))"] {
+        let case = field(&[("x", "1"), ("y", rate)]);
+        let end = followed(&case, "x=1 y=0", 300.0, Precision::Float).expect("a motion").end;
+        assert!(end[1].hi.abs() < 4e-24, "{rate}: {end:?}");
+    }
+    let square = field(&[("x", "1"), ("y", "((exp(x)-1)/(exp(x)+1))^2")]);
+    let end = followed(&square, "x=0 y=0", 368.0, Precision::Float).expect("a motion").end;
+    assert!((end[1].hi - 366.0).abs() < 1e-11, "{end:?}");
+}
+
+#[test]
+fn a_level_does_not_depend_on_what_is_beside_it() {
+    // A cubic rate towards and away from a circle about (a, 0), with a constant beside it
+    for (a, z) in [("0", "0"), ("1000", "0"), ("0", "10^12")] {
+        let case = parse(&format!(
+            "title = 'a'\n[state]\nx = '-2..2'\ny = '-2..2'\nz = '-2..2'\n\
+             [level]\nequations = ['(x-{a})^2 + y^2 = 1']\n[field]\n\
+             \"x'\" = '-y + 3*(x-{a})*((x-{a})^2+y^2-1)'\n\
+             \"y'\" = 'x - {a} + 3*y*((x-{a})^2+y^2-1)'\n\"z'\" = '0'\n"
+        ));
+        let begin = format!("x={a}+3/5 y=4/5 z={z}");
+        let end = followed(&case, &begin, 100.0, Precision::Float).expect("a motion").end;
+        let x = (end[0] - DoubleDouble::from_f64(a.parse().expect("a number"))).hi;
+        let off = x * x + end[1].hi * end[1].hi - 1.0;
+        assert!(off.abs() < 1e-9, "{a}, {z}: {off:e} off the level");
+        // Steps are those for the size of the whole state.
+        let error = if z == "0" { 1e-9 } else { 1e-4 };
+        let gap = x - (100.0 + 0.8f64.atan2(0.6)).cos();
+        assert!(gap.abs() < error, "{a}, {z}: {gap:e}");
+    }
+}
+
+#[test]
+fn gates_that_are_1_to_rounding_are_not_jumped() {
+    for (rate, closed) in [
+        ("1/(1+exp(-(x^2-4)*10))", 60.0 - 56.0010309),
+        ("1/(1+exp(-x^2))", 60.0 - 58.927845),
+        ("exp(x^2)/(1+exp(x^2))", 60.0 - 58.927845),
+    ] {
+        let case = field(&[("x", "1"), ("y", rate)]);
+        for precision in BOTH {
+            let end = followed(&case, "x=-30 y=0", 60.0, precision).expect("a motion").end;
+            assert!((60.0 - end[1].hi - closed).abs() < 1e-6, "{rate}, {precision:?}: {end:?}");
+        }
+    }
+}
+
+#[test]
+fn roots_of_polynomials_far_from_a_start_are_found() {
+    let line = field(&[("x", "1"), ("y", "0")]);
+    for (surface, begin, roots) in [
+        ("x^3 = x", "x=-1000 y=1", &[-1.0, 0.0, 1.0][..]),
+        ("x*(x-1)*(x-2)*(x-3) = 0", "x=-1000 y=1", &[0.0, 1.0, 2.0, 3.0]),
+        ("x^2 = 4", "x=-100000 y=1", &[-2.0, 2.0]),
+    ] {
+        let from: f64 =
+            begin["x=".len()..].split(' ').next().and_then(|x| x.parse().ok()).expect("x");
+        let found = crossings(&line, surface, begin, roots.len());
+        for ((time, _), root) in found.iter().zip(roots) {
+            assert!((time + from - root).abs() < 1e-6, "{surface}: {found:?}");
+        }
+        assert_eq!(found.len(), roots.len(), "{surface}");
+    }
+}

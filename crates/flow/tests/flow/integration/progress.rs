@@ -42,7 +42,7 @@ fn shares_of_motions_add_up_to_their_number() {
     });
     assert_sum(&shares, 2, "spectra");
     let columns = Columns::read(Lexicon::new(&case), "t").expect("columns");
-    let sampling = Sampling { columns: &columns, every: Rational::from(1) };
+    let sampling = Sampling { columns: &columns, every: Rational::from(1), with_steps: false };
     for precision in [Precision::Float, Precision::Pair] {
         let followed = (&Rational::from(-20), precision);
         let shares = told(|progress| {

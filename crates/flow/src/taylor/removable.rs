@@ -1,0 +1,288 @@
+//! Quotients that have a limit where their divisors are 0, as u/(1 − e⁻ᵘ), sin u/u, (1 − cos u)/u² and
+//! ln(1 + u)/u at u = 0.
+//!
+//! Near such a place a program has their power series in place of the quotients, which have no digits
+//! there. Only quotients with functions count: what is rational as written, like x²/x, has no value where
+//! its divisor is 0.
+
+use std::collections::BTreeMap;
+
+use crate::taylor::germ::{Affine, Germ, LENGTH, Monomial};
+use liouville::graph::{Graph, Step};
+use liouville::number::rational::Rational;
+use liouville::number::{BinaryOperation, UnaryFunction};
+
+/// Number of coefficients of the series that stand for a quotient.
+const COUNT: usize = 30;
+/// Largest number of steps of a graph that a quotient is made of.
+const MOST_STEPS: usize = 256;
+/// Largest number of places at which a divisor is looked at.
+const MOST_PLACES: usize = 8;
+/// Part of the largest term below which terms of a series are left out: below the rounding of
+/// double-double.
+const LEFT_OUT: f64 = 1e-33;
+/// Number of times that the reach of a series is halved.
+const MOST_HALVES: i32 = 12;
+
+/// A quotient with a limit where its divisors are 0.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Removable {
+    /// Function v that is 0 there.
+    pub(super) variable: Affine,
+    /// Factors of the quotient by their places, with their powers.
+    pub(super) factors: Vec<(usize, i32)>,
+    /// Its series in v up to `reach`, each with the unknowns that it is multiplied by.
+    pub(super) series: Vec<(Monomial, Vec<Rational>)>,
+    pub(super) reach: f64,
+}
+
+impl Removable {
+    /// Finds a quotient with a limit among the factors of a product.
+    pub(super) fn of(graph: &Graph, factors: &[(usize, i32)]) -> Option<Self> {
+        let divisors = || factors.iter().filter(|(_, power)| *power < 0);
+        let has_dividend = factors.iter().any(|(_, power)| *power > 0);
+        if !has_dividend {
+            return None;
+        }
+        divisors().find_map(|(divisor, _)| {
+            let places = variables(graph, *divisor)?;
+            places.into_iter().find_map(|variable| Self::at(graph, factors, variable))
+        })
+    }
+
+    /// The quotient of the factors that are 0 where `variable` is, if it has a limit.
+    fn at(graph: &Graph, factors: &[(usize, i32)], variable: Affine) -> Option<Self> {
+        let (mut dividend, mut zeros) = (Germ::of_constant(Rational::from(1)), 0i64);
+        let mut own = Vec::new();
+        let mut has_function = false;
+        for power_is_positive in [true, false] {
+            for (place, power) in
+                factors.iter().filter(|(_, power)| (*power > 0) == power_is_positive)
+            {
+                let Some((germ, with_function)) = germ(graph, *place, &variable) else { continue };
+                let order = germ.order();
+                if order == 0 || order >= COUNT {
+                    continue;
+                }
+                zeros += order as i64 * i64::from(*power);
+                has_function |= with_function;
+                own.push((*place, *power));
+                if power_is_positive {
+                    dividend = dividend.product(&germ.power(power.unsigned_abs())?)?;
+                } else {
+                    let divisor = germ.plain()?;
+                    for _ in 0..power.unsigned_abs() {
+                        if dividend.order() < order {
+                            return None;
+                        }
+                        dividend = dividend.divided(divisor, order)?;
+                    }
+                }
+            }
+        }
+        let has_divisor = own.iter().any(|(_, power)| *power < 0);
+        if !has_function || !has_divisor || zeros < 0 {
+            return None;
+        }
+        let series: Vec<(Monomial, Vec<Rational>)> = dividend
+            .terms
+            .into_iter()
+            .map(|(monomial, mut series)| {
+                series.truncate(COUNT);
+                (monomial, series)
+            })
+            .collect();
+        let reach = (0..MOST_HALVES).map(|n| libm::ldexp(1.0, -n));
+        let reach =
+            reach.into_iter().find(|reach| series.iter().all(|(_, own)| ends(own, *reach)))?;
+        Some(Self { variable, factors: own, series, reach })
+    }
+
+    /// Places on which the quotient depends.
+    pub(super) fn arguments(&self) -> impl Iterator<Item = usize> {
+        let unknowns =
+            self.series.iter().flat_map(|(monomial, _)| monomial.iter().map(|own| own.0));
+        let factors = self.factors.iter().map(|(place, _)| *place);
+        self.variable.terms.keys().copied().chain(unknowns).chain(factors)
+    }
+}
+
+/// Whether the last terms of a series are below rounding up to a distance.
+fn ends(series: &[Rational], reach: f64) -> bool {
+    let size = |n: usize| series[n].to_f64().0.abs() * libm::pow(reach, n as f64);
+    let largest = (0..COUNT).map(size).fold(0.0, f64::max);
+    (COUNT - 3..COUNT).all(|n| size(n) <= LEFT_OUT * largest)
+}
+
+/// Steps that a step is made of, in order; `None` if they are many.
+fn parts(graph: &Graph, place: usize) -> Option<Vec<usize>> {
+    let (mut found, mut rest) = (std::collections::BTreeSet::new(), vec![place]);
+    while let Some(next) = rest.pop() {
+        if found.insert(next) {
+            rest.extend(graph.step(next).arguments());
+        }
+        if found.len() > MOST_STEPS {
+            return None;
+        }
+    }
+    Some(found.into_iter().collect())
+}
+
+/// Steps as affine functions of others.
+fn affine(graph: &Graph, parts: &[usize]) -> BTreeMap<usize, Affine> {
+    let mut all: BTreeMap<usize, Affine> = BTreeMap::new();
+    for place in parts {
+        let at = |a: usize| all.get(&a).cloned().unwrap_or_else(|| Affine::of_step(a));
+        let minus = Rational::from(-1);
+        let own = match graph.step(*place) {
+            Step::Constant(value) => Some(Affine::of_constant(value.clone())),
+            Step::Unary(UnaryFunction::Neg, a) => Some(at(a).times(&minus)),
+            Step::Binary(BinaryOperation::Add, a, b) => {
+                Some(at(a).plus(&at(b), &Rational::from(1)))
+            }
+            Step::Binary(BinaryOperation::Sub, a, b) => Some(at(a).plus(&at(b), &minus)),
+            Step::Binary(BinaryOperation::Mul, a, b) => {
+                let (x, y) = (at(a), at(b));
+                let factor = |constant: &Affine, other: &Affine| {
+                    constant.as_constant().map(|factor| other.times(factor))
+                };
+                factor(&x, &y).or_else(|| factor(&y, &x))
+            }
+            Step::Unary(UnaryFunction::Recip, a) => {
+                let value = at(a);
+                value.as_constant().and_then(Rational::recip).map(Affine::of_constant)
+            }
+            _ => None,
+        };
+        all.insert(*place, own.unwrap_or_else(|| Affine::of_step(*place)));
+    }
+    all
+}
+
+/// Functions of the state at whose zeros a divisor may be 0.
+fn variables(graph: &Graph, divisor: usize) -> Option<Vec<Affine>> {
+    let parts = parts(graph, divisor)?;
+    let affine = affine(graph, &parts);
+    let one = Affine::of_constant(Rational::from(1));
+    let mut found: Vec<Affine> = Vec::new();
+    for place in &parts {
+        let candidate = match graph.step(*place) {
+            Step::Unary(UnaryFunction::Exp | UnaryFunction::Sin | UnaryFunction::Cos, a) => {
+                affine.get(&a).cloned()
+            }
+            Step::Unary(UnaryFunction::Ln, a) => {
+                affine.get(&a).map(|own| own.plus(&one, &Rational::from(-1)))
+            }
+            Step::Input(_) => affine.get(place).cloned(),
+            Step::Binary(BinaryOperation::Add | BinaryOperation::Sub, ..) => {
+                affine.get(place).cloned()
+            }
+            _ => None,
+        };
+        let is_new = |own: &Affine| {
+            own.as_constant().is_none() && !found.iter().any(|known| own.vanishes_with(known))
+        };
+        found.extend(candidate.filter(is_new));
+    }
+    found.truncate(MOST_PLACES);
+    Some(found)
+}
+
+/// Series of a step in v, and whether functions enter it.
+fn germ(graph: &Graph, place: usize, v: &Affine) -> Option<(Germ, bool)> {
+    let parts = parts(graph, place)?;
+    let affine = affine(graph, &parts);
+    let mut all: BTreeMap<usize, (Germ, bool)> = BTreeMap::new();
+    for place in parts {
+        let own = affine.get(&place).and_then(|own| Germ::of_affine(own, v));
+        let found = match own {
+            Some(own) => (own, false),
+            None => made(graph.step(place), &all).unwrap_or_else(|| (Germ::unknown(place), false)),
+        };
+        all.insert(place, found);
+    }
+    all.remove(&place)
+}
+
+/// Series of a step by those of its arguments.
+fn made(step: Step<'_>, all: &BTreeMap<usize, (Germ, bool)>) -> Option<(Germ, bool)> {
+    let sum = |a: usize, b: usize, factor: i64| {
+        let ((x, f), (y, g)) = (all.get(&a)?, all.get(&b)?);
+        Some((x.clone().plus(y, &Rational::from(factor))?, *f || *g))
+    };
+    match step {
+        Step::Binary(BinaryOperation::Add, a, b) => sum(a, b, 1),
+        Step::Binary(BinaryOperation::Sub, a, b) => sum(a, b, -1),
+        Step::Binary(BinaryOperation::Mul, a, b) => {
+            let ((x, f), (y, g)) = (all.get(&a)?, all.get(&b)?);
+            Some((x.product(y)?, *f || *g))
+        }
+        Step::Unary(UnaryFunction::Neg, a) => {
+            let (x, f) = all.get(&a)?;
+            let zero = Germ::of_constant(Rational::from(0));
+            Some((zero.plus(x, &Rational::from(-1))?, *f))
+        }
+        Step::Unary(function, a) => {
+            let (x, f) = all.get(&a)?;
+            Some((x.apply(function)?, *f || function != UnaryFunction::Recip))
+        }
+        Step::Power(a, exponent) => {
+            let (x, f) = all.get(&a)?;
+            let whole = u32::try_from(exponent.to_integer()?).ok()?;
+            ((whole as usize) < LENGTH).then(|| x.power(whole))?.map(|power| (power, *f))
+        }
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use liouville::graph::{Expr, record};
+    use liouville::scalar::Scalar;
+    use num_dual::DualNum;
+
+    /// Finds y times a quotient of functions of x.
+    fn found(build: impl Fn(Expr) -> [Expr; 2]) -> Option<Removable> {
+        let (graph, factors) = record(2, |x| build(x[0])).expect("records");
+        let [dividend, divisor] = factors.map(|factor| graph.place(factor));
+        Removable::of(&graph, &[(dividend, 1), (divisor, -1)])
+    }
+
+    fn first(found: Option<Removable>) -> (f64, f64) {
+        let found = found.expect("a limit");
+        assert!(found.reach >= 1e-2, "{found:?}");
+        (found.series[0].1[0].to_f64().0, found.series[0].1[1].to_f64().0)
+    }
+
+    fn number(a: i64, b: i64) -> Expr {
+        Expr::rational(&Rational::new(a, b))
+    }
+
+    #[test]
+    fn textbook_quotients_have_limits() {
+        let rate = |v: Expr| {
+            let u = (v + number(55, 1)) * number(1, 10);
+            [(v + number(55, 1)) * number(1, 100), number(1, 1) - (-u).exp()]
+        };
+        // u/(1 − e^(−u))/10 = (1 + u/2 + …)/10, in the variable −u
+        let (value, slope) = first(found(rate));
+        assert!((value - 0.1).abs() < 1e-15 && (slope + 0.05).abs() < 1e-15, "{value} {slope}");
+        let (value, slope) = first(found(|x| [x.sin(), x]));
+        assert!((value, slope) == (1.0, 0.0));
+        let (value, slope) = first(found(|x| [number(1, 1) - x.cos(), x * x]));
+        assert!((value, slope) == (0.5, 0.0));
+        let (value, slope) = first(found(|x| [(x + number(1, 1)).ln(), x]));
+        assert!((value, slope) == (1.0, -0.5));
+        let (value, slope) = first(found(|x| [x.ln(), x - number(1, 1)]));
+        assert!((value, slope) == (1.0, -0.5));
+    }
+
+    #[test]
+    fn poles_and_rational_quotients_have_none() {
+        assert!(found(|x| [x.cos(), x]).is_none(), "a pole");
+        assert!(found(|x| [x.sin(), x * x]).is_none(), "a pole of sin x/x²");
+        assert!(found(|x| [x - number(1, 1_000_000), number(1, 1) - x.exp()]).is_none());
+        assert!(found(|x| [x * x, x]).is_none(), "rational as written");
+    }
+}
