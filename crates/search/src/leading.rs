@@ -107,7 +107,8 @@ fn unbracketed_negative(text: &str) -> &str {
 /// Replaces a formula where it stands alone: −y*z is no part of −y*z².
 pub fn replaced(text: &str, before: &str, after: &str) -> String {
     let goes_on = |rest: &str| {
-        [" + ", " − "].iter().any(|sign| rest.starts_with(sign))
+        // A theorem speaks of integrals F + F₁.
+        [" + ", " − "].iter().any(|sign| rest.starts_with(sign)) && !rest.starts_with(" + F₁")
             || rest.starts_with(|next: char| next.is_alphanumeric() || "*/^'[(_".contains(next))
     };
     let mut all = String::new();
@@ -130,6 +131,7 @@ mod tests {
     fn formulas_are_replaced_where_they_stand_alone() {
         let own = |text: &str| replaced(text, "−y*z", "y*z");
         assert_eq!(own("functions of −y*z, x and −y*z"), "functions of y*z, x and y*z");
+        assert_eq!(own("an integral −y*z + F₁ with"), "an integral y*z + F₁ with");
         for text in ["−y*z²", "−y*z + x", "−y*zeta", "x−y*z", "−y*z*x"] {
             assert_eq!(own(text), text);
         }

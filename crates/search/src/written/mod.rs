@@ -52,6 +52,7 @@ pub fn shorten(case: &Case, effort: &Effort, report: &mut SearchReport) -> Resul
         let after = report.found[place].formula.clone();
         for own in &mut report.excluded {
             own.theorem = replaced(&own.theorem, &before.formula, &after);
+            own.ansatz = replaced(&own.ansatz, &before.formula, &after);
         }
     }
     Ok(())
