@@ -5,6 +5,7 @@ use liouville::number::rational::Rational;
 use liouville::proof::{MOST_POLYNOMIAL_WORK, Polynomial};
 
 use super::super::orbit::parsed::is_name;
+use super::fraction::Fraction;
 use super::reader::{Reader, has_comma};
 use super::writer;
 
@@ -12,6 +13,8 @@ use super::writer;
 const FEWEST_TERMS: usize = 3;
 /// Largest number of expressions.
 const MOST: usize = 60;
+/// Name of the Hamiltonian.
+const ENERGY: &str = "energy";
 /// Longest expression, in bytes.
 const LONGEST: usize = 400;
 
@@ -20,6 +23,8 @@ const LONGEST: usize = 400;
 pub struct NamedExpressions {
     all: Vec<(Polynomial, String)>,
     has_hyperbolic: bool,
+    /// Hamiltonian.
+    energy: Option<Fraction>,
 }
 
 impl NamedExpressions {
@@ -68,7 +73,13 @@ impl NamedExpressions {
                 all.push((own, name));
             }
         }
-        Self { all, has_hyperbolic }
+        let energy = match &model.system {
+            System::Hamiltonian(own) if case.formula(ENERGY).is_ok() => {
+                reader.read(own.function.text())
+            }
+            _ => None,
+        };
+        Self { all, has_hyperbolic, energy }
     }
 
     /// The text of the file for a polynomial, with the number that it has to be multiplied by.
@@ -78,6 +89,13 @@ impl NamedExpressions {
         let (named, text) = self.all.iter().find(same)?;
         let quotient = own.over(named, &mut { MOST_POLYNOMIAL_WORK })?;
         Some((quotient.number()?, text.clone()))
+    }
+
+    /// The number by which the Hamiltonian is multiplied, with its name; `None` of another fraction.
+    pub fn multiple_of_energy(&self, own: &Fraction) -> Option<(Rational, String)> {
+        let quotient = own.over(self.energy.as_ref()?)?.reduced()?;
+        let number = quotient.above.number().filter(|own| !own.is_zero())?;
+        Some((&number * &quotient.below.number()?.recip()?, ENERGY.to_string()))
     }
 
     /// Whether the file contains a hyperbolic function.

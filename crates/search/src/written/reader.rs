@@ -149,6 +149,7 @@ impl<'c> Reader<'c> {
         };
         let name = if name == "sqrt" { "√" } else { name };
         let called = match name {
+            "√" if is_name(&written) => format!("√{written}"),
             "|" => format!("|{written}|"),
             name => format!("{name}({written})"),
         };

@@ -40,6 +40,14 @@ struct Factor {
 
 /// The shortest text of a fraction.
 pub fn written(reader: &mut Reader<'_>, own: &Fraction, constants: Constants) -> Option<Written> {
+    if constants == Constants::Kept
+        && let Some((number, text)) = reader.named.multiple_of_energy(own)
+    {
+        let sign = if number.is_negative() { "−" } else { "" };
+        let own = assembled(&number.abs(), &[vec![(text, 1)], Vec::new()]);
+        let (text, constant_text) = (format!("{sign}{own}"), "1".to_string());
+        return Some(Written { text, constant: Fraction::one(), constant_text });
+    }
     let turned = hyperbolic::turned(reader, own);
     let all = std::iter::once(own).chain(&turned);
     let mut made: Vec<Written> = Vec::new();
@@ -166,6 +174,8 @@ fn divided(own: &Polynomial) -> Option<(Rational, Vec<Factor>)> {
             all.push(Factor { polynomial, power });
         }
     }
+    // Variables come before sums, in the order of the file.
+    all.sort_by_key(|own| (own.polynomial.size(), own.polynomial.variables()));
     match rest.number() {
         Some(number) => Some((number, all)),
         None => {
