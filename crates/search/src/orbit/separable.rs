@@ -46,21 +46,47 @@ pub fn search(
     };
     // Each in the names of the case, and in those of the extension.
     let mut given = vec![[energy, read.clone()]];
-    let mut is_new = true;
-    while std::mem::take(&mut is_new) && given.len() <= MOST_KNOWN {
+    while given.len() <= MOST_KNOWN && known.algebraic_within(&every(setting)) < sets.len() {
+        let mut found = Vec::new();
         for variables in &sets {
-            if known.algebraic_within(&every(setting)) >= sets.len() {
-                return Ok(());
-            }
             let search = CoordinateSearch { setting, origin, variables };
-            if let Some(found) = search.integral(&given, known, report)? {
-                given.push(found);
+            found.extend(search.integrals(&given, report)?);
+        }
+        // One of them, as the coordinates give it in several forms.
+        found.sort_by_key(|[own, _]| own.text().chars().count());
+        let mut is_new = false;
+        for own in found {
+            if tell_if_proved(setting, origin, &own, known, report)? {
+                given.push(own);
                 is_new = true;
                 break;
             }
         }
+        if !is_new {
+            break;
+        }
     }
     Ok(())
+}
+
+/// Reports an integral if it is proved, and independent of others; returns whether it was added.
+fn tell_if_proved(
+    setting: &OrbitSetting<'_>,
+    origin: ExtendedCase<'_>,
+    [formula, extended]: &[Formula; 2],
+    known: &mut IndependentIntegrals,
+    report: &mut SearchReport,
+) -> Result<bool, SearchError> {
+    setting.effort.halt.check()?;
+    let statement = OrbitStatement::Integral(formula.clone());
+    let Some(found) = claims::judged_here(setting, &statement)? else { return Ok(false) };
+    let before = report.found.len();
+    tell(origin.case, formula, found, setting.effort, report)?;
+    if report.found.len() == before {
+        return Ok(false);
+    }
+    known.add(extended.clone(), None, &every(setting));
+    Ok(true)
 }
 
 fn every(setting: &OrbitSetting<'_>) -> Vec<usize> {
@@ -105,13 +131,12 @@ struct CoordinateSearch<'s, 'c> {
 }
 
 impl CoordinateSearch<'_, '_> {
-    /// Finds and reports an integral; returns it in the names of the case, and in those of the extension.
-    fn integral(
+    /// Candidates, each in the names of the case and in those of the extension.
+    fn integrals(
         &self,
         given: &[[Formula; 2]],
-        known: &mut IndependentIntegrals,
         report: &mut SearchReport,
-    ) -> Result<Option<[Formula; 2]>, SearchError> {
+    ) -> Result<Vec<[Formula; 2]>, SearchError> {
         let (setting, effort) = (self.setting, self.setting.effort);
         let factors: Vec<Formula> =
             std::iter::once(one()).chain(given.iter().map(|[_, own]| own.clone())).collect();
@@ -130,13 +155,13 @@ impl CoordinateSearch<'_, '_> {
             exponents: (*own).clone(),
         };
         system.columns = places.iter().map(product).collect();
-        let Some(at) = system.at(0, 0) else { return Ok(None) };
+        let Some(at) = system.at(0, 0) else { return Ok(Vec::new()) };
         let columns: Vec<usize> = (0..places.len()).collect();
-        let Some(distinct) = system.distinct(&at, &columns)? else { return Ok(None) };
+        let Some(distinct) = system.distinct(&at, &columns)? else { return Ok(Vec::new()) };
         // Without the constant, and the known integrals themselves.
         let is_constant = |k: &usize| places[*k].1.iter().all(|power| *power == 0);
         let columns: Vec<usize> = distinct.into_iter().filter(|k| !is_constant(k)).collect();
-        let Some(vectors) = system.null_space(&at, &columns)? else { return Ok(None) };
+        let Some(vectors) = system.null_space(&at, &columns)? else { return Ok(Vec::new()) };
         let spread = |own: Vec<u64>| {
             let mut full = vec![0; places.len()];
             columns.iter().zip(own).for_each(|(column, entry)| full[*column] = entry);
@@ -145,6 +170,7 @@ impl CoordinateSearch<'_, '_> {
         let vectors: Vec<Vec<u64>> = sparse(&at.modulus, vectors).into_iter().map(spread).collect();
         let products: Vec<Vec<usize>> = outputs.iter().map(|output| vec![*output]).collect();
         let new = complement(&system, &at, &vectors, &products)?.unwrap_or_default();
+        let mut found = Vec::new();
         for vector in new {
             effort.halt.check()?;
             let support: Vec<usize> = (0..vector.len()).filter(|k| vector[*k] != 0).collect();
@@ -160,17 +186,17 @@ impl CoordinateSearch<'_, '_> {
                 .collect::<Result<_, _>>()?;
             let part = |factor: usize| {
                 let own = (0..support.len()).filter(|k| places[support[*k]].0 == factor);
-                coefficients.sum(&own.collect::<Vec<_>>(), &functions)
+                let own: Vec<usize> = own.collect();
+                let functions: Vec<Ratio> = own.iter().map(|k| functions[*k].clone()).collect();
+                coefficients.sum(&own, &functions)
             };
             let mut parts = Vec::new();
             for factor in 0..factors.len() {
                 parts.push(part(factor)?);
             }
-            if let Some(own) = self.tell(&parts, given, known, report)? {
-                return Ok(Some(own));
-            }
+            found.extend(self.written(&parts, given)?);
         }
-        Ok(None)
+        Ok(found)
     }
 
     /// The monomials of the highest degree for which the unknowns are few.
@@ -183,15 +209,13 @@ impl CoordinateSearch<'_, '_> {
         degrees.find(|all| all.len() * factors <= UNKNOWNS).unwrap_or_default()
     }
 
-    /// Reports Σ F_k parts_k, F_0 = 1 and the others the given integrals, if it is proved and new.
-    fn tell(
+    /// Writes Σ F_k parts_k, F_0 = 1 and the others the given integrals.
+    fn written(
         &self,
         parts: &[Option<Formula>],
         given: &[[Formula; 2]],
-        known: &mut IndependentIntegrals,
-        report: &mut SearchReport,
     ) -> Result<Option<[Formula; 2]>, SearchError> {
-        let (setting, case) = (self.setting, self.origin.case);
+        let case = self.origin.case;
         let mut sums: [Vec<Formula>; 2] = Default::default();
         let factors = std::iter::once(None).chain(given.iter().map(Some));
         for (part, factor) in parts.iter().zip(factors) {
@@ -210,18 +234,6 @@ impl CoordinateSearch<'_, '_> {
             let Some(first) = parts.next().cloned() else { return Ok(None) };
             texts.push(parts.try_fold(first, |sum, own| &sum + own)?);
         }
-        let [formula, extended]: [Formula; 2] = match texts.try_into() {
-            Ok(both) => both,
-            Err(_) => return Ok(None),
-        };
-        let statement = OrbitStatement::Integral(formula.clone());
-        let Some(found) = claims::judged_here(setting, &statement)? else { return Ok(None) };
-        let before = report.found.len();
-        tell(case, &formula, found, setting.effort, report)?;
-        if report.found.len() == before {
-            return Ok(None);
-        }
-        known.add(extended.clone(), None, &every(setting));
-        Ok(Some([formula, extended]))
+        Ok(texts.try_into().ok())
     }
 }

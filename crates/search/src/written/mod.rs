@@ -126,7 +126,13 @@ fn changed(
     let read = reader.read(&own.formula);
     let Some(read) = read else { return Ok(None) };
     let is_shifted = matches!(own.kind, "integral" | FURTHER_INTEGRAL | CONSTANT_RATE);
-    let shifts = if is_shifted { shifts::shifts(reader, &read) } else { Vec::new() };
+    let mut shifts = Vec::new();
+    if is_shifted {
+        let turned = hyperbolic::turned(reader, &read);
+        for own in std::iter::once(&read).chain(&turned) {
+            shifts.extend(shifts::shifts(reader, own));
+        }
+    }
     let mut made = writer::written(reader, &read, constants);
     let mut shift = None;
     for (rest, constant) in shifts {

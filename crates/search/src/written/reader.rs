@@ -193,11 +193,13 @@ impl<'c> Reader<'c> {
         let read = self.sum(inner).and_then(|own| self.simplified(own))?;
         let (number, whole) = writer::content(&read)?;
         let is_bare = !is_modulus(argument);
+        let opposite = Fraction::number(&Rational::from(-1)).times(&whole)?;
+        let is_square = |own: &Fraction| own.is_polynomial() && squares::is_sum(&own.above);
+        let whole = if !is_bare && is_square(&opposite) { opposite } else { whole };
         if read.above.number().is_some() || is_bare && number.is_negative() {
             return None;
         }
-        let is_square = whole.is_polynomial() && squares::is_sum(&whole.above);
-        let text = match is_bare || is_square {
+        let text = match is_bare || is_square(&whole) {
             true => writer::written(self, &whole, Constants::Kept)?.text,
             false => format!("|{}|", self.modulus(&whole)?),
         };

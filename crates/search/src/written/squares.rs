@@ -18,6 +18,7 @@ pub fn sum(own: &Polynomial, name: &dyn Fn(u32) -> String) -> Option<String> {
         }
     }
     let mut texts = Vec::new();
+    products.sort_unstable();
     for ([first, second], is_negative) in &products {
         for token in [first, second] {
             let place = squares.iter().position(|own| own == token)?;

@@ -6,7 +6,7 @@ use liouville::proof::{MOST_POLYNOMIAL_WORK, Polynomial};
 use num_bigint::BigInt;
 use num_integer::Integer;
 
-use super::super::orbit::parsed::{is_bracketed, is_modulus, is_name, joined};
+use super::super::orbit::parsed::{is_bracketed, is_modulus, is_name, joined, terms as terms_of};
 use super::fraction::Fraction;
 use super::hyperbolic;
 use super::reader::Reader;
@@ -136,9 +136,36 @@ fn product(
         number = Rational::from(1);
         is_negative &= constants == Constants::Sign;
     }
-    let text = assembled(&number, &parts);
+    let mut is_alone = false;
+    if is_negative {
+        let is_single = parts[1].is_empty() && parts[0].len() == 1 && number == Rational::from(1);
+        if let Some(turned) = turned(&mut parts[0], is_single) {
+            (is_negative, is_alone) = (false, turned);
+        }
+    }
+    let text = match is_alone {
+        true => parts[0].iter().map(|(text, _)| text.as_str()).collect(),
+        false => assembled(&number, &parts),
+    };
     let text = if is_negative { negative(&text, parts[0].len() + parts[1].len()) } else { text };
     Some(Written { text, constant, constant_text })
+}
+
+/// Takes the negative of a factor that is a sum, where that begins with a plus; of a factor that is all in any
+/// case. Returns whether it is all.
+fn turned(factors: &mut [(String, u32)], is_single: bool) -> Option<bool> {
+    for (text, power) in factors.iter_mut() {
+        if *power % 2 == 0 || !is_sum(text) {
+            continue;
+        }
+        let own = terms_of(text).into_iter().map(|(sign, own)| (!sign, own.to_string()));
+        let opposite = with_sums_first(own.collect());
+        if is_single || !opposite.starts_with('−') {
+            *text = opposite;
+            return Some(is_single);
+        }
+    }
+    None
 }
 
 fn negative(text: &str, factors: usize) -> String {
