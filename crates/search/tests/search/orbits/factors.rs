@@ -79,12 +79,12 @@ fn factors_of_the_whole_field_are_found() {
         &field("", &["(x² + y² − 1)*(x*y + 2)", "(x² + y² − 1)*(x − y² + 3)"]),
         &Effort::default(),
     );
-    assert!(cofactor(&circle, "1 − x² − y²").is_some(), "{:?}", circle.found);
+    assert!(cofactor(&circle, "x² + y² − 1").is_some(), "{:?}", circle.found);
     let lines = searched(
         &field("", &["(x − 2*y)*(x + y − 1)*(y² + 2)", "(x − 2*y)*(x + y − 1)*(x − 3)"]),
         &Effort::default(),
     );
-    for line in ["x − 2*y", "1 − x − y"] {
+    for line in ["x − 2*y", "x + y − 1"] {
         assert!(cofactor(&lines, line).is_some(), "{line}: {:?}", lines.found);
     }
 }
@@ -97,7 +97,7 @@ fn variables_that_divide_their_rates_are_found_at_any_degree() {
         ("", ["(2*x)^1000000007*y", "y"], ("y", "1"), "1/(x^1000000007*y)"),
         ("", ["x^4000000000*x^4000000000*y", "y"], ("y", "1"), "1/(x^8000000000*y)"),
         ("", ["(x + y + 1)^300", "y*(x + y + 1)^7"], ("y", "(x + y + 1)⁷"), ""),
-        ("", ["(x + 1)^1000000007*y", "y - 3*y"], ("y", "1 − 3"), ""),
+        ("", ["(x + 1)^1000000007*y", "y - 3*y"], ("y", "−2"), ""),
         ("a = '1..2'", ["a*x^31*(y + x^40)", "1 + y²"], ("x", "x³⁰*a*(y + x⁴⁰)"), ""),
     ];
     for (parameters, rates, (variable, own), density) in fields {
