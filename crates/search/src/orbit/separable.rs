@@ -21,6 +21,7 @@ use super::known::IndependentIntegrals;
 use super::monomials;
 use super::setting::{ExtendedCase, OrbitSetting};
 use super::sparse::sparse;
+use super::{parsed, signed_terms};
 
 /// Highest degree in the variables of one coordinate.
 const DEGREE: u32 = 6;
@@ -224,6 +225,13 @@ impl CoordinateSearch<'_, '_> {
             for (sum, (place, own)) in sums.iter_mut().zip([(0, &back), (1, part)]) {
                 sum.push(match factor {
                     None => own.clone(),
+                    Some(factor) if signed_terms(own.text()).len() == 1 => {
+                        // A name needs no brackets.
+                        let is_name = parsed::is_name(factor[place].text());
+                        let factor =
+                            if is_name { factor[place].clone() } else { factor[place].bracketed() };
+                        (own * &factor)?
+                    }
                     Some(factor) => (&factor[place].bracketed() * &own.bracketed())?,
                 });
             }
