@@ -47,13 +47,10 @@ fn changed(case: &Case, effort: &Effort, own: &Found) -> Result<Option<Found>, S
     };
     let text = match may_turn {
         true => joined(terms.iter().map(|(is_negative, text)| (!is_negative, *text))),
-        false => {
-            let Some(first) = terms.iter().position(|(is_negative, _)| !is_negative) else {
-                return Ok(None);
-            };
-            let rest = terms.iter().enumerate().filter(|(place, _)| *place != first);
-            joined([terms[first]].into_iter().chain(rest.map(|(_, own)| *own)))
-        }
+        false => match with_a_sum_first(&terms) {
+            Some(text) => text,
+            None => return Ok(None),
+        },
     };
     let Ok(formula) = case.formula(&text) else { return Ok(None) };
     let minus = |own: &Formula| -> Result<Formula, SearchError> { Ok(-&own.bracketed()) };
@@ -77,6 +74,22 @@ fn changed(case: &Case, effort: &Effort, own: &Found) -> Result<Option<Found>, S
     Ok(Some(Found { formula: formula.to_string(), function: Some(formula), with, ..own.clone() }))
 }
 
+/// The opposite of a formula, a term that is added first where there is one.
+pub fn opposite(case: &Case, formula: &Formula) -> Result<Formula, SearchError> {
+    let terms = signed_terms(formula.text());
+    let turned: Vec<_> = terms.into_iter().map(|(is_negative, own)| (!is_negative, own)).collect();
+    let text = with_a_sum_first(&turned).unwrap_or_else(|| joined(turned.iter().copied()));
+    let turned = case.formula(&text);
+    Ok(turned.unwrap_or_else(|_| -&formula.bracketed()))
+}
+
+/// Joins terms, the first that is added before the others; `None` if all are subtracted.
+fn with_a_sum_first(terms: &[(bool, &str)]) -> Option<String> {
+    let first = terms.iter().position(|(is_negative, _)| !is_negative)?;
+    let rest = terms.iter().enumerate().filter(|(place, _)| *place != first);
+    Some(joined([terms[first]].into_iter().chain(rest.map(|(_, own)| *own))))
+}
+
 /// Text in brackets behind a minus sign, where that is all; otherwise the whole text.
 fn unbracketed_negative(text: &str) -> &str {
     let inner = text.strip_prefix("−(").and_then(|text| text.strip_suffix(')'));
@@ -92,9 +105,10 @@ fn unbracketed_negative(text: &str) -> &str {
 }
 
 /// Replaces a formula where it stands alone: −y*z is no part of −y*z².
-fn replaced(text: &str, before: &str, after: &str) -> String {
+pub fn replaced(text: &str, before: &str, after: &str) -> String {
     let goes_on = |rest: &str| {
-        [" + ", " − "].iter().any(|sign| rest.starts_with(sign))
+        // A theorem speaks of integrals F + F₁.
+        [" + ", " − "].iter().any(|sign| rest.starts_with(sign)) && !rest.starts_with(" + F₁")
             || rest.starts_with(|next: char| next.is_alphanumeric() || "*/^'[(_".contains(next))
     };
     let mut all = String::new();
@@ -117,6 +131,7 @@ mod tests {
     fn formulas_are_replaced_where_they_stand_alone() {
         let own = |text: &str| replaced(text, "−y*z", "y*z");
         assert_eq!(own("functions of −y*z, x and −y*z"), "functions of y*z, x and y*z");
+        assert_eq!(own("an integral −y*z + F₁ with"), "an integral y*z + F₁ with");
         for text in ["−y*z²", "−y*z + x", "−y*zeta", "x−y*z", "−y*z*x"] {
             assert_eq!(own(text), text);
         }

@@ -64,6 +64,7 @@ mod symmetries;
 mod tensors;
 mod terms;
 mod vectors;
+mod written;
 
 use liouville::case::Case;
 
@@ -111,6 +112,8 @@ pub fn search(
             }
         })?;
         report.stage("the density 1", effort, |report| maps::volume(case, effort, report))?;
+        report
+            .stage("shorter formulas", effort, |report| written::shorten(case, effort, report))?;
         maps::note_fields_only(effort, &mut report);
         return Ok(report);
     }
@@ -178,7 +181,9 @@ pub fn search(
     report.stage("shorter formulas", effort, |report| {
         recognised::rewrite(case, effort, report)?;
         vectors::gather(case, effort, report)?;
-        leading::write_without_minus(case, effort, report)
+        leading::write_without_minus(case, effort, report)?;
+        written::shorten(case, effort, report)?;
+        repeated::remove(case, effort, report)
     })?;
     if effort.halt.is_timed() {
         report.stage("relations of higher degree along an orbit", effort, |report| {

@@ -3,11 +3,16 @@
 use super::mathml::without_tilde;
 use liouville::formula::{Layout, Type, ascii_name};
 
+/// Functions that LaTeX has as commands.
+const COMMANDS: [&str; 13] =
+    ["sin", "cos", "tan", "cot", "sinh", "cosh", "tanh", "exp", "ln", "log", "det", "max", "min"];
+
 /// Renders a formula in math mode, without the dollars.
 pub fn formula(layout: &Layout) -> String {
     match layout {
         Layout::Number(digits) => digits.clone(),
         Layout::Name { letter, kind, index, primes } => name(letter, *kind, index, *primes),
+        Layout::Word(word) if COMMANDS.contains(word) => format!("\\{word} "),
         Layout::Word(word) => format!("\\operatorname{{{word}}}"),
         Layout::Sign(sign) => command(sign),
         Layout::Space => "\\,".to_string(),
@@ -163,6 +168,28 @@ pub fn escaped(text: &str) -> String {
     out
 }
 
+/// A document with the encoding that Cyrillic letters need, where it has some.
+pub fn with_encoding(document: String) -> String {
+    let is_cyrillic = |letter: char| ('Ѐ'..='ӿ').contains(&letter);
+    match document.contains(is_cyrillic) {
+        true => document.replacen(
+            "\\documentclass{article}\n",
+            "\\documentclass{article}\n\\usepackage[T2A]{fontenc}\n",
+            1,
+        ),
+        false => document,
+    }
+}
+
+/// Whole exponent of a number behind the sign ^ at a place, as in 2^-220.
+fn whole_exponent(text: &str, place: usize) -> Option<&str> {
+    let is_number = text[..place].ends_with(|letter: char| letter.is_ascii_digit());
+    let own = text[place..].strip_prefix('^').filter(|_| is_number)?;
+    let digits = own.strip_prefix('-').unwrap_or(own);
+    let count = digits.chars().take_while(char::is_ascii_digit).count();
+    (count > 0).then(|| &own[..own.len() - digits.len() + count])
+}
+
 /// Sets a text in letters that any LaTeX reads.
 pub fn prose(text: &str) -> String {
     let sign = |c: char| {
@@ -205,6 +232,15 @@ pub fn prose(text: &str) -> String {
             '→' => "\\to ",
             '∈' => "\\in ",
             'ℝ' => "\\mathbb{R}",
+            '±' => "\\pm ",
+            '∓' => "\\mp ",
+            '°' => "^\\circ",
+            'µ' => "\\mu ",
+            '…' => "\\dots ",
+            '“' => return Some("``".to_string()),
+            '”' => return Some("''".to_string()),
+            '‘' => return Some("`".to_string()),
+            '№' => return Some("No.".to_string()),
             '–' => return Some("--".to_string()),
             '—' => return Some("---".to_string()),
             '’' => return Some("'".to_string()),
@@ -214,12 +250,19 @@ pub fn prose(text: &str) -> String {
         Some(format!("${{}}{math}$"))
     };
     let mut out = String::new();
-    for c in text.chars() {
+    let mut letters = text.char_indices();
+    while let Some((place, c)) = letters.next() {
+        let exponent = whole_exponent(text, place);
         match (sign(c), c) {
+            _ if exponent.is_some() => {
+                let own = exponent.unwrap_or_default();
+                out.push_str(&format!("$^{{{own}}}$"));
+                own.chars().for_each(|_| _ = letters.next());
+            }
             (Some(sign), _) => out.push_str(&sign),
             (None, c) if c.is_ascii() => out.push_str(&escaped(&c.to_string())),
-            // Accented letters are read as they are.
-            (None, 'À'..='ſ') => out.push(c),
+            // Accented letters and Cyrillic ones are read as they are.
+            (None, 'À'..='ſ' | 'Ѐ'..='ӿ') => out.push(c),
             (None, c) => {
                 let own = formula(&Layout::name(&c.to_string(), Type::Scalar));
                 match own.is_ascii() {
@@ -249,5 +292,14 @@ mod tests {
     #[test]
     fn special_characters_are_escaped() {
         assert_eq!(escaped("a_1^2 & {50%}"), "a\\_1\\textasciicircum{}2 \\& \\{50\\%\\}");
+    }
+
+    #[test]
+    fn signs_and_exponents_of_a_text_are_set() {
+        assert_eq!(prose("mu ± i"), "mu ${}\\pm $ i");
+        assert_eq!(prose("error < 2^-222, x^2"), "error < 2$^{-222}$, x\\textasciicircum{}2");
+        assert_eq!(prose("Волчок"), "Волчок");
+        let document = |text: &str| with_encoding(format!("\\documentclass{{article}}\n{text}"));
+        assert!(document("Волчок").contains("[T2A]{fontenc}") && !document("top").contains("T2A"));
     }
 }

@@ -1,7 +1,7 @@
 //! The table of verdicts as a LaTeX document: its `longtable` can be taken over into a paper.
 
 use super::{COLUMNS, CaseRows, RowStatement, VerdictRow, VerdictTable, joined, one_line};
-use crate::typeset::latex::{formula, prose, widest};
+use crate::typeset::latex::{formula, prose, widest, with_encoding};
 
 /// Widths of the columns in millimetres; together with their gaps they fit a page of 297 mm.
 const WIDTHS: [usize; 5] = [48, 26, 100, 20, 44];
@@ -40,7 +40,7 @@ pub fn render(table: &VerdictTable<'_>) -> String {
         out.push_str(&format!("\n{text}\n"));
     }
     out.push_str(&format!("\n{}\n\\end{{document}}\n", prose(&table.caption)));
-    out
+    with_encoding(out)
 }
 
 /// A line across all columns.

@@ -22,21 +22,16 @@ const MOST_VELOCITIES: usize = 6;
 /// up to a degree.
 pub fn witness(asked: &AbsenceCase<'_>, most: u32) -> Result<Option<String>, SearchError> {
     let case = asked.case;
-    let in_velocities = asked.coordinates.is_ok();
-    let in_state = AnsatzVariables::of(case).is_some_and(|own| !own.have_velocities());
     let known = [Some(one()), mass_determinant(case)];
     let claimed = case.claims.iter().filter_map(|claim| match &claim.kind {
         ClaimKind::Density(Density(formula)) => Some(formula),
         _ => None,
     });
     for formula in claimed.chain(known.iter().flatten()) {
-        let is_of_class = match (in_velocities, in_state) {
-            (true, _) => is_in_velocities(asked, formula, most)?,
-            (false, true) => is_in_state(asked, formula, most)?,
-            (false, false) => false,
-        };
         // The claim itself may concern another domain, and thus another volume.
-        if is_of_class && let Some(exhibit) = exhibit(asked, formula)? {
+        if is_of_class(asked, formula, most)?
+            && let Some(exhibit) = exhibit(asked, formula)?
+        {
             return Ok(Some(exhibit));
         }
     }
@@ -81,9 +76,27 @@ fn mass_determinant(case: &Case) -> Option<Formula> {
     case.formula(&text).ok()
 }
 
+/// Whether a density belongs to the class with polynomials up to this degree.
+pub fn is_of_class(
+    asked: &AbsenceCase<'_>,
+    formula: &Formula,
+    most: u32,
+) -> Result<bool, SearchError> {
+    match asked.coordinates.is_ok() {
+        true => is_in_velocities(asked, formula, most),
+        false => Ok(has_class(asked) && is_in_state(asked, formula, most)?),
+    }
+}
+
+/// Whether a claim on a case speaks of a class of densities.
+pub fn has_class(asked: &AbsenceCase<'_>) -> bool {
+    let all = || AnsatzVariables::of(asked.case).is_some_and(|own| !own.have_velocities());
+    asked.coordinates.is_ok() || all()
+}
+
 /// Whether a density is P^(1/α), with P a polynomial up to this degree in the velocities, or a function
 /// of the positions alone.
-pub fn is_in_velocities(
+fn is_in_velocities(
     asked: &AbsenceCase<'_>,
     formula: &Formula,
     most: u32,

@@ -1,8 +1,8 @@
 //! Invariants that parts of a search find where a count leaves room for them.
 
 use super::super::products::degree_in_state;
-use super::super::{Found, SearchError, SearchReport, integrals, orbit};
-use super::AbsenceCase;
+use super::super::{Found, SearchError, SearchReport, densities, integrals, orbit};
+use super::{AbsenceCase, claimed_densities};
 use liouville::formula::Formula;
 use liouville::verdict::Verdict;
 
@@ -49,6 +49,20 @@ pub fn integral(asked: &AbsenceCase<'_>, most: u32) -> Result<Option<String>, Se
         Ok(degree.is_some_and(|degree| degree <= most) && asked.is_new(function)?)
     };
     first(&mut parts, &mut SearchReport::default(), "integral", &is_wanted)
+}
+
+/// Returns a proved density of the class of a claim that a search finds.
+pub fn density(asked: &AbsenceCase<'_>, most: u32) -> Result<Option<String>, SearchError> {
+    if !claimed_densities::has_class(asked) {
+        return Ok(None);
+    }
+    let (case, effort) = (asked.case, &asked.effort);
+    let mut parts: [Part<'_>; 2] =
+        [&mut |report| densities::densities(case, effort, report), &mut |report| {
+            orbit::search(case, effort, false, report, &mut |_| {})
+        }];
+    let is_wanted = |function: &Formula| claimed_densities::is_of_class(asked, function, most);
+    first(&mut parts, &mut SearchReport::default(), "density", &is_wanted)
 }
 
 /// Writes a find with the definitions of the names that it uses.

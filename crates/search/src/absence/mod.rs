@@ -4,6 +4,7 @@
 //! known        the integrals that the file claims and that are proved, with the energy
 //! velocities   polynomials in the velocities with any smooth coefficients, by Taylor coefficients
 //! polynomials  polynomials in all variables of a field, by random states
+//! polynomial_densities  densities P^(1/α) and exp P with such polynomials
 //! gradients    whether an integral is no function of others
 //! leading      when products of known integrals cannot cancel
 //! found        integrals of a field that a search finds
@@ -25,6 +26,7 @@ mod functions;
 mod gradients;
 mod known;
 mod leading;
+mod polynomial_densities;
 mod polynomials;
 mod relations;
 mod reports;
@@ -277,6 +279,12 @@ impl<'a> AbsenceCase<'a> {
                 }),
             }
         };
+        if matches!(counted, Counted::Densities)
+            && matches!(outcome, AbsenceOutcome::Open(_) | AbsenceOutcome::Bounded(_))
+            && let Some(exhibit) = found::density(self, degree)?
+        {
+            return Ok(AbsenceOutcome::Exhibited(exhibit));
+        }
         let is_true = match coordinates.is_ok() {
             true => branches::are_counts_true,
             false => branches::are_true,

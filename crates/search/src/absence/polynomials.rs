@@ -13,10 +13,9 @@ use super::super::ask::judged_alone;
 use super::super::multipliers::WEIGHTS;
 use super::super::orbit::monomials::count;
 use super::super::products::{DEGREE_PRIMES, Generators};
-use super::super::terms::{is_one, multiplied, numeric_exponent};
 use super::known::{contains_integrals, has_lists, rank};
 use super::leading;
-use super::{AbsenceCase, AbsenceOutcome, Counted, claimed_densities, found, generated};
+use super::{AbsenceCase, AbsenceOutcome, Counted, found, generated};
 use liouville::claim::Claim;
 use liouville::formula::{Formula, FormulaError};
 use liouville::graph::Expr;
@@ -70,28 +69,28 @@ pub fn nothing() -> AbsenceOutcome {
 }
 
 /// Count of the polynomials of a field.
-struct Counting<'a> {
-    asked: &'a AbsenceCase<'a>,
+pub struct Counting<'a> {
+    pub(super) asked: &'a AbsenceCase<'a>,
     variables: &'a AnsatzVariables,
     degree: u32,
     monomials: Vec<Vec<u32>>,
-    system: LinearSystem,
-    at: PrimePoint,
+    pub(super) system: LinearSystem,
+    pub(super) at: PrimePoint,
     /// Known integrals, with their outputs.
     known: Vec<(Formula, usize)>,
     /// Direction for each choice of α; that of integrals is 0.
-    weighted: Vec<(i64, usize)>,
+    pub(super) weighted: Vec<(i64, usize)>,
     /// Column of div v.
-    divergence: usize,
+    pub(super) divergence: usize,
 }
 
 /// Space of the polynomials in known integrals.
-struct Space {
+pub struct Space {
     terms: Vec<Formula>,
     exponents: Vec<Vec<u32>>,
     /// Outputs that each product multiplies.
     products: Vec<Vec<usize>>,
-    dimension: usize,
+    pub(super) dimension: usize,
 }
 
 impl<'a> Counting<'a> {
@@ -146,7 +145,7 @@ impl<'a> Counting<'a> {
     }
 
     /// Returns the columns of the monomials along the direction of this number.
-    fn columns(&self, direction: usize) -> Vec<usize> {
+    pub(super) fn columns(&self, direction: usize) -> Vec<usize> {
         let count = self.monomials.len();
         let start = if direction == 0 { 0 } else { 1 + direction * count };
         (start..start + count).collect()
@@ -192,7 +191,7 @@ impl<'a> Counting<'a> {
     }
 
     /// Returns the polynomials in the known integrals up to the degree.
-    fn space(&self) -> Result<Option<Space>, SearchError> {
+    pub(super) fn space(&self) -> Result<Option<Space>, SearchError> {
         let Some(degrees) = self.degrees()? else { return Ok(None) };
         let own: Vec<(&(Formula, usize), u32)> = self
             .known
@@ -213,7 +212,7 @@ impl<'a> Counting<'a> {
         Ok(dimension.map(|dimension| Space { terms, exponents, products, dimension }))
     }
 
-    fn class(&self) -> String {
+    pub(super) fn class(&self) -> String {
         format!("a polynomial of degree at most {} in the variables of the state", self.degree)
     }
 
@@ -301,7 +300,11 @@ impl<'a> Counting<'a> {
 
     /// Writes Σ c_a x^a for all values of the parameters, if its coefficients are fractions in
     /// them.
-    fn written(&self, vector: &[u64], direction: usize) -> Result<Option<Formula>, SearchError> {
+    pub(super) fn written(
+        &self,
+        vector: &[u64],
+        direction: usize,
+    ) -> Result<Option<Formula>, SearchError> {
         let support: Vec<usize> = (0..vector.len()).filter(|k| vector[*k] != 0).collect();
         let start = self.columns(direction).first().copied();
         let columns = |start: usize| support.iter().map(|k| start + k).collect::<Vec<_>>();
@@ -315,86 +318,15 @@ impl<'a> Counting<'a> {
     }
 
     /// Returns the monomials of some columns.
-    fn functions(&self, columns: impl Iterator<Item = usize>) -> Result<Vec<Ratio>, FormulaError> {
+    pub(super) fn functions(
+        &self,
+        columns: impl Iterator<Item = usize>,
+    ) -> Result<Vec<Ratio>, FormulaError> {
         columns.map(|k| self.variables.monomial(&self.monomials[k]).map(Ratio::of)).collect()
     }
 
     fn holds(&self, claim: Claim) -> Result<bool, SearchError> {
         let report = judged_alone(self.asked.case, claim, &self.asked.effort)?;
         Ok(report.is_some_and(|report| report.verdict == Verdict::Proved))
-    }
-
-    fn no_density(&self) -> Result<AbsenceOutcome, SearchError> {
-        for (alpha, direction) in &self.weighted {
-            self.asked.effort.halt.check()?;
-            let columns = self.columns(*direction);
-            let Some(found) = self.system.null_space(&self.at, &columns)? else {
-                return Ok(nothing());
-            };
-            let Some(vector) = found.first() else { continue };
-            let root = numeric_exponent(Rational::new(alpha.signum(), alpha.abs()))?;
-            if let Some(polynomial) = self.written(vector, *direction)? {
-                let formula = multiplied(&[(polynomial, root.clone())])?;
-                if let Some(exhibit) = claimed_densities::exhibit(self.asked, &formula)? {
-                    return Ok(AbsenceOutcome::Exhibited(exhibit));
-                }
-            }
-            return Ok(AbsenceOutcome::Open(format!(
-                "the count allows a density P^{root}, but none was found in closed form"
-            )));
-        }
-        // L_vP + s div v = 0, without the constants: ln ρ = P/s.
-        let columns = [&self.columns(0)[1..], &[self.divergence]].concat();
-        let Some(found) = self.system.null_space(&self.at, &columns)? else { return Ok(nothing()) };
-        if found.iter().any(|own| own.last().is_some_and(|last| *last != 0)) {
-            return self.exponential(&found, &columns);
-        }
-        let Some(space) = self.space()? else { return Ok(nothing()) };
-        if found.len() + 1 != space.dimension {
-            let reason = "there are more integrals of this degree than are claimed, and the count does \
-                          not tell them from densities: claim them as well";
-            return Ok(AbsenceOutcome::Open(reason.to_string()));
-        }
-        let statement = format!(
-            "there is no invariant density P^(1/α), α = ±1, ±2, ±3, ±4, and none of the form exp P, with \
-             P {}",
-            self.class()
-        );
-        Ok(AbsenceOutcome::Excluded {
-            theorem: self.asked.theorem(&statement),
-            counted: "0 are counted".to_string(),
-        })
-    }
-
-    /// Writes exp P and judges it as a density.
-    fn exponential(
-        &self,
-        found: &[Vec<u64>],
-        columns: &[usize],
-    ) -> Result<AbsenceOutcome, SearchError> {
-        let own = found.iter().find(|own| own.last().is_some_and(|last| *last != 0));
-        let open = || {
-            Ok(AbsenceOutcome::Open(
-                "the count allows a density exp P, but none was found".to_string(),
-            ))
-        };
-        let Some(vector) = own else { return open() };
-        let support: Vec<usize> = (0..vector.len()).filter(|k| vector[*k] != 0).collect();
-        let used: Vec<usize> = support.iter().map(|k| columns[*k]).collect();
-        let Some(coefficients) = PrimitiveVector::of(&self.system, &used)? else { return open() };
-        let last = support.len() - 1;
-        let functions = self.functions(support[..last].iter().map(|k| columns[*k]))?;
-        let sum = coefficients.sum(&(0..last).collect::<Vec<_>>(), &functions)?;
-        let sum = sum.unwrap_or_else(|| Formula::number(0));
-        let below = coefficients.formula(last)?;
-        let exponent = match is_one(&below) {
-            true => sum,
-            false => (sum.bracketed() / &below.bracketed())?,
-        };
-        let formula = Formula::call("exp", &[&exponent])?;
-        match claimed_densities::exhibit(self.asked, &formula)? {
-            Some(exhibit) => Ok(AbsenceOutcome::Exhibited(exhibit)),
-            None => open(),
-        }
     }
 }

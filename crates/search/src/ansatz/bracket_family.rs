@@ -53,19 +53,34 @@ impl BracketFamily {
         Ok(vec![plain, Self::new(case, effort, weights, WEIGHTED)?])
     }
 
+    /// The family of {x_i,x_j} = c_ij x_i x_j, which all satisfy Jacobi's identity; `None` on a level.
+    pub(super) fn log_canonical(case: &Case, effort: &Effort) -> Result<Option<Self>, SearchError> {
+        if !case.model.level.is_empty() {
+            return Ok(None);
+        }
+        let weights = weights(case, effort)?;
+        let names = names(case)?;
+        let pairs = pairs(names.len());
+        let unknown = |weight: usize, pair: &(usize, usize)| {
+            let exponents =
+                (0..names.len()).map(|k| u32::from(k == pair.0 || k == pair.1)).collect();
+            BracketUnknown { pair: *pair, weight, exponents }
+        };
+        let unknowns = (0..weights.len())
+            .flat_map(|weight| pairs.iter().map(move |pair| unknown(weight, pair)))
+            .collect();
+        Ok(Some(Self { weights, names, degree: 2, unknowns, vanishing: None }))
+    }
+
     fn new(
         case: &Case,
         effort: &Effort,
         weights: Vec<Weight>,
         highest: u32,
     ) -> Result<Self, SearchError> {
-        let dimension = case.model.dimension();
-        let mut names = Vec::new();
-        for k in 0..dimension {
-            names.push(case.formula(&case.model.component_name(k))?);
-        }
-        let pairs: Vec<(usize, usize)> =
-            (0..dimension).flat_map(|i| (i + 1..dimension).map(move |j| (i, j))).collect();
+        let names = names(case)?;
+        let dimension = names.len();
+        let pairs = pairs(dimension);
         let mut degree = highest;
         let (functions, vanishing) = loop {
             let own = Functions::up_to(degree, weights.len(), dimension);
@@ -96,6 +111,16 @@ impl BracketFamily {
     pub(super) fn is_within(&self, other: &Self) -> bool {
         self.weights.len() <= other.weights.len() && self.degree <= other.degree
     }
+}
+
+/// Components of the state.
+fn names(case: &Case) -> Result<Vec<Formula>, FormulaError> {
+    (0..case.model.dimension()).map(|k| case.formula(&case.model.component_name(k))).collect()
+}
+
+/// Pairs i < j of components.
+fn pairs(dimension: usize) -> Vec<(usize, usize)> {
+    (0..dimension).flat_map(|i| (i + 1..dimension).map(move |j| (i, j))).collect()
 }
 
 /// The index of w, and the exponents, of some functions w xᵃ.

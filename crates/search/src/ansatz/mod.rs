@@ -37,6 +37,7 @@ mod gyro_second;
 mod gyro_slots;
 mod gyro_split;
 mod gyrostats;
+mod hamiltonians;
 mod integrals;
 pub mod monomials;
 mod poisson;

@@ -14,11 +14,11 @@ use super::super::terms::integers;
 use super::super::{Effort, Found, SearchError, SearchReport, branches};
 use super::bracket_absence::Absence;
 use super::bracket_family::BracketFamily;
+use super::hamiltonians::{level_functions, written_energy};
 use super::scales::{Scale, Scales};
 use liouville::case::Case;
 use liouville::claim::Claim;
 use liouville::formula::{Formula, FormulaError, Type};
-use liouville::mechanics::{LevelFunction, System};
 use liouville::number::rational::Rational;
 use liouville::verdict::Verdict;
 
@@ -89,6 +89,7 @@ pub fn brackets(
         }
         made => made?,
     };
+    let logarithmic = BracketFamily::log_canonical(case, effort)?;
     let scales = Scales::of(case, effort, report)?;
     let level = level_functions(case)?;
     let proves = branches::are_true(case, effort)?;
@@ -107,6 +108,11 @@ pub fn brackets(
             ));
             continue;
         }
+        if let Some(family) = &logarithmic
+            && own.within(family).is_found(&known, report)?
+        {
+            continue;
+        }
         for found in own.search(&families, proves, &known, report)? {
             found.join(&mut absences);
         }
@@ -122,43 +128,6 @@ pub fn brackets(
         );
     }
     Ok(())
-}
-
-/// Writes the energy of a Lagrangian system as T + U, where it is this and is conserved: claims about
-/// brackets cannot read it by its name.
-fn written_energy(case: &Case, effort: &Effort) -> Result<Option<Formula>, SearchError> {
-    let System::Lagrangian(own) = &case.model.system else { return Ok(None) };
-    let Some(energy) = proved_energy(case, effort)? else { return Ok(None) };
-    let sum = match &own.potential {
-        None => own.kinetic.clone(),
-        Some(potential) => match potential.text().trim().strip_prefix(['-', '−']) {
-            Some(rest) => case.formula(&format!("{} − {}", own.kinetic.text(), rest.trim()))?,
-            None => (&own.kinetic + potential)?,
-        },
-    };
-    let judged = judged_alone(case, Claim::identity(&energy, &sum), effort)?;
-    Ok(judged.filter(|own| own.verdict == Verdict::Proved).map(|_| sum))
-}
-
-/// Writes functions that are constant on the level: the left sides of its equations where the right
-/// ones are numbers.
-fn level_functions(case: &Case) -> Result<Vec<Formula>, FormulaError> {
-    let mut functions = Vec::new();
-    for equation in &case.model.level {
-        let sides = equation.text.split_once('=');
-        let sides = sides.map(|(left, right)| (case.formula(left.trim()), right.trim()));
-        functions.push(match (&equation.function, sides) {
-            (LevelFunction::UnitNormal, _) => case.formula("(γ,γ)")?,
-            (LevelFunction::NoSpin, _) => case.formula("(ω,γ)")?,
-            (LevelFunction::Formula(_), Some((Ok(left), right)))
-                if case.formula(right).is_ok_and(|right| right.constant().is_some()) =>
-            {
-                left
-            }
-            (LevelFunction::Formula(formula), _) => formula.clone(),
-        });
-    }
-    Ok(functions)
 }
 
 /// The search for brackets with one Hamiltonian.
@@ -245,6 +214,18 @@ impl<'a> HamiltonianSearch<'a> {
 }
 
 impl BracketSearch<'_> {
+    /// Whether a bracket of the family with v = P ∂H is found, and reported.
+    fn is_found(&self, known: &[Formula], report: &mut SearchReport) -> Result<bool, SearchError> {
+        let multiplier = self.of.scales.one();
+        let solution = match self.solved(&multiplier) {
+            Err(SearchError::NoChart | SearchError::NoPoints) => None,
+            solved => solved?.solution,
+        };
+        let Some(solution) = solution else { return Ok(false) };
+        let entries = self.entries(&integers(&solution))?;
+        self.is_bracket(&entries, &multiplier, &multiplier, known, report)
+    }
+
     /// Tests Jacobi's identity, first for the solution, then for its sums and differences with
     /// solutions of P ∂H = 0; for each also for its product with N, and with a function that is found.
     /// Reports a bracket, or returns the reason why none is reported.

@@ -10,8 +10,8 @@ use liouville::verdict::Verdict;
 
 use super::super::ask::judged;
 use super::super::{SearchError, SearchReport};
-use super::claims;
 use super::setting::OrbitSetting;
+use super::{claims, map_weighted};
 
 /// Largest order that is looked for.
 const MOST_ORDER: usize = 12;
@@ -33,6 +33,8 @@ pub fn finite_order(
     let Some(order) = observed(setting)? else { return Ok(()) };
     let iterates = iterates(setting.case, order).unwrap_or_default();
     let is_proved = returns(setting, order, &iterates)?;
+    // Integrals over a density are shorter than sums over orbits.
+    map_weighted::search(setting, setting.dimension(), report)?;
     let what = match order {
         1 => "the map is the identity".to_string(),
         _ => format!("the map has order {order}: Φ^{order} = id"),

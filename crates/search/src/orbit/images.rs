@@ -14,7 +14,7 @@ use super::super::{Halt, SearchError};
 use super::setting::OrbitSetting;
 
 /// Largest number of choices of the parameters for one vector.
-const MOST_CHOICES: usize = 160;
+const MOST_CHOICES: usize = 256;
 /// Number of choices for one vector, however many steps they take.
 const FEW_CHOICES: usize = 32;
 /// Largest number of steps for more choices.

@@ -13,16 +13,17 @@
 //! line, determinants   points of a line whose orbits satisfy an additional relation
 //! conic, level_shape  conics in place of lines, where functions satisfy relations, and on spheres
 //! harmonics, harmonic_rows, phase   integrals with sines and exponentials of cyclic coordinates
-//! darboux, shared  Darboux polynomials: the relations at these points, and those of several lines
-//! cofactors    whether a polynomial modulo a prime is one
+//! darboux, shared, cofactors  Darboux polynomials: the relations at these points, and of several lines; proofs modulo p
+//! separable    integrals in one coordinate, its momentum and known integrals
 //! separate     those whose coefficients depend on the parameters, one by one
 //! cleared      Darboux polynomials of fields of fractions
 //! unbound      Darboux polynomials with functions
 //! own_factors, angle  variables that divide their own rates; angles between conjugate factors
 //! no_others    theorem that the Darboux polynomials found are all
+//! map          search of a map
 //! finite_order   maps with Φⁿ = id, and sums over their orbits
 //! map_densities, map_integrals  densities and polynomial integrals of maps
-//! map_fractions, map_products  densities of maps that are fractions, or products
+//! map_fractions, map_products, map_weighted  densities of maps that are fractions, or products; integrals over these
 //! logarithms   integrals of maps by monomials
 //! exponents, driven, product_densities  densities, and integrals with powers, logarithms and exponentials, from cofactors
 //! quotients    fractions over powers of factors in these exponents
@@ -68,10 +69,12 @@ mod limits;
 mod line;
 mod logarithms;
 mod magnitude;
+mod map;
 mod map_densities;
 mod map_fractions;
 mod map_integrals;
 mod map_products;
+mod map_weighted;
 pub mod monomials;
 pub mod no_others;
 mod own_factors;
@@ -87,6 +90,7 @@ mod relations;
 mod remarks;
 mod report;
 mod rounds;
+mod separable;
 mod separate;
 mod setting;
 mod shared;
@@ -105,7 +109,7 @@ use liouville::formula::Formula;
 use liouville::mechanics::System;
 use liouville::verdict::Verdict;
 
-pub use self::adjoin::{joined_terms, merged, root_steps, roots, signed_terms};
+pub use self::adjoin::{joined_terms, merged, parsed, root_steps, roots, signed_terms};
 pub use self::closure::{FURTHER_INTEGRAL, close};
 pub use self::darboux::KIND as DARBOUX;
 pub use self::exponents::CONSTANT_RATE;
@@ -114,6 +118,7 @@ pub use self::images::coefficients;
 use self::known::{IndependentIntegrals, has_told_all};
 use self::limits::{EXTENDED, FURTHER, MODEST, RoundLimits};
 use self::line::degree_of_field;
+pub use self::map::search as search_map;
 use self::part::VariableSet;
 pub use self::report::OrbitReport;
 use self::setting::OrbitSetting;
@@ -258,42 +263,6 @@ fn is_constrained(case: &Case) -> bool {
     }
 }
 
-/// Searches a map for a density and for integrals; proved ones go into the report. If `further`, the
-/// limits grow while there is time.
-pub fn search_map(
-    case: &Case,
-    effort: &Effort,
-    further: bool,
-    report: &mut SearchReport,
-    progress: &mut dyn FnMut(&str),
-) -> Result<(), SearchError> {
-    match OrbitSetting::of(case, effort)? {
-        Ok(setting) => {
-            map_densities::densities(&setting, report, progress)?;
-            finite_order::finite_order(&setting, report)?;
-            let before = report.orbits.len();
-            let outcome = counted(case, effort, report, |report| {
-                along_orbits(&setting, further_limits(further), report, progress)
-            });
-            // All points of an orbit but its first satisfy what all images do.
-            if report.orbits.len() > before && !setting.fills_space()? {
-                report.orbits.truncate(before);
-                report.remark(
-                    "relations along orbits are not counted: the images of the map do not fill the space"
-                        .to_string(),
-                );
-            }
-            outcome
-        }
-        Err(reason) => {
-            report.remark(format!("no relations along orbits: {reason}"));
-            Ok(())
-        }
-    }?;
-    logarithms::search(case, effort, report, progress)?;
-    map_products::search(case, effort, report, progress)
-}
-
 /// Limits that follow the first ones: none, unless the time of a search is limited.
 fn further_limits(further: bool) -> &'static [RoundLimits] {
     if further { &FURTHER } else { &[] }
@@ -365,6 +334,7 @@ fn along_orbits(
 ) -> Result<(), SearchError> {
     let before = report.orbits.len();
     let mut known = IndependentIntegrals::of(setting, report)?;
+    separable::search(setting, &mut known, report)?;
     let has_line = setting.has_lines();
     let degree = if has_line { degree_of_field(setting)? } else { None };
     let part = |variables| VariableSet::new(variables, degree);

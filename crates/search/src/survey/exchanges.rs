@@ -10,29 +10,23 @@
 
 use std::collections::BTreeSet;
 
+use super::drawn_states::states;
 use super::involutions::{MapCandidate, signed};
 use super::question::FixedSet;
 use super::sign_changes::sign_changes;
 use liouville::case::Case;
-use liouville::claim::{LevelSubset, Reversor, Statement, Symmetry, clock};
+use liouville::claim::{Reversor, Statement, Symmetry, clock};
 use liouville::formula::{Formula, Type};
-use liouville::graph::{Evaluator, Expr, Tape, record};
-use liouville::mechanics::Phase;
-use liouville::number::float::Float;
-use liouville::number::rational::Rational;
-use liouville::scalar::Scalar;
-use liouville::verdict::Sampler;
+use liouville::mechanics::{System, VariableRole};
 
 /// Largest number of components of which all signed permutations are tried.
 const MOST_COMPONENTS: usize = 6;
+/// Largest number of components of which all changes of sign are tried.
+const MOST_OF_SIGNS: usize = 12;
 /// Largest number of components of which orders are reversed and shifted.
 const MOST_IN_ORDER: usize = 48;
 /// Largest number of variables whose signs are combined with these.
 const MOST_SIGNS: usize = 4;
-/// Number of drawn states at which a map is tried.
-const STATES: u64 = 3;
-/// Part of the largest rate by which rates may differ through rounding.
-const ROUNDING: f64 = 1e-9;
 /// Largest number of maps in a group that is completed.
 const MOST_PRODUCTS: usize = 4000;
 /// Largest number of maps that are claimed.
@@ -101,7 +95,8 @@ pub fn exchanges(case: &Case, seed: u64) -> Vec<MapCandidate> {
         return Vec::new();
     }
     let Some(states) = states(case, seed) else { return Vec::new() };
-    let fits = |own: &Exchange| states.iter().all(|state| state.fits(own));
+    let fits =
+        |own: &Exchange| states.iter().all(|state| state.fits(|x| own.image(x), own.reverses));
     let is_identity = |own: &Exchange| !own.is_permutation() && own.size().1 == 0;
     let all = candidates(case).into_iter().filter(|own| !is_identity(own));
     let mut fitting: Vec<Exchange> = all.filter(fits).collect();
@@ -141,8 +136,8 @@ fn generated(generators: &[Exchange]) -> BTreeSet<Exchange> {
     found
 }
 
-/// Lists the maps to be tried: all signed permutations of few components, and otherwise the orders within
-/// variables reversed or shifted.
+/// Lists the maps to be tried: all signed permutations of few components, and otherwise changes of sign, and
+/// the orders within variables reversed or shifted.
 fn candidates(case: &Case) -> Vec<Exchange> {
     let model = &case.model;
     let dimension = model.dimension();
@@ -162,6 +157,15 @@ fn candidates(case: &Case) -> Vec<Exchange> {
             }
         }
         return all;
+    }
+    let identity: Vec<usize> = (0..dimension).collect();
+    if dimension <= MOST_OF_SIGNS {
+        for mask in 1u32..1 << dimension {
+            let sign = |k: usize| if mask >> k & 1 == 1 { -1 } else { 1 };
+            both(&identity, (0..dimension).map(sign).collect());
+        }
+    } else if let Some(signs) = velocities_reversed(case) {
+        both(&identity, signs);
     }
     let lengths: Vec<usize> = match model.state.iter().all(|own| own.len() == 1) {
         true => vec![dimension],
@@ -190,6 +194,36 @@ fn candidates(case: &Case) -> Vec<Exchange> {
     all
 }
 
+/// Signs of the components where all velocities of a Lagrangian system are reversed.
+fn velocities_reversed(case: &Case) -> Option<Vec<i8>> {
+    let System::Lagrangian(own) = &case.model.system else { return None };
+    let signs = own.roles.iter().zip(&case.model.state).flat_map(|(role, variable)| {
+        let is_velocity = matches!(role, VariableRole::Velocity);
+        std::iter::repeat_n(if is_velocity { -1 } else { 1 }, variable.len())
+    });
+    let signs: Vec<i8> = signs.collect();
+    (signs.len() == case.model.dimension()).then_some(signs)
+}
+
+/// The maps of a state that are tried, in words that go on with "no reversor was found among".
+pub fn tried(case: &Case) -> &'static str {
+    let model = &case.model;
+    match &model.system {
+        System::Lagrangian(_) | System::Hamiltonian(_) | System::Field(_) | System::Map(_) => {}
+        _ => return "signed permutations of the axes",
+    }
+    match model.dimension() {
+        _ if clock(model).is_some() => "changes of sign",
+        0..=MOST_COMPONENTS => "signed permutations of the components",
+        dimension if dimension <= MOST_OF_SIGNS => {
+            "changes of sign, and components in the opposite order or shifted by one"
+        }
+        _ => {
+            "changes of sign of whole variables, and components in the opposite order or shifted by one"
+        }
+    }
+}
+
 /// Order of the components of a variable in its image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Order {
@@ -214,55 +248,6 @@ fn permutations(count: usize) -> Vec<Vec<usize>> {
         all = all.iter().flat_map(with).collect();
     }
     all
-}
-
-/// A drawn state with its rates.
-struct DrawnState {
-    tape: Tape,
-    state: Vec<f64>,
-    rates: Vec<f64>,
-}
-
-impl DrawnState {
-    fn fits(&self, own: &Exchange) -> bool {
-        let there = rates(&self.tape, &own.image(&self.state));
-        let turned = own.image(&self.rates);
-        let sign = if own.reverses { -1.0 } else { 1.0 };
-        let size = self.rates.iter().fold(0.0, |most: f64, rate| most.max(rate.abs()));
-        // Comparisons with NaN are false.
-        there.iter().zip(&turned).all(|(a, b)| (a - sign * b).abs() <= ROUNDING * size)
-    }
-}
-
-fn rates(tape: &Tape, state: &[f64]) -> Vec<f64> {
-    let mut evaluator = Evaluator::new(tape, Float::<1>);
-    evaluator.run(&state.iter().map(|x| [*x]).collect::<Vec<_>>());
-    evaluator.outputs().map(|value| value[0]).collect()
-}
-
-/// Draws states with their parameters.
-fn states(case: &Case, seed: u64) -> Option<Vec<DrawnState>> {
-    let model = &case.model;
-    let sampler = Sampler::new(case, &LevelSubset::level(model), seed).ok()?;
-    let one = |index: u64| {
-        let values = sampler.printed(index, f64::MANTISSA_DIGITS);
-        let values = values.iter().map(|text| text.parse::<Rational>().ok());
-        let mut parameters = values.collect::<Option<Vec<Rational>>>()?;
-        let state = parameters.split_off(model.free_components());
-        let (graph, field) = record(model.dimension(), |inputs| {
-            let parameters: Vec<_> = parameters.iter().map(Expr::rational).collect();
-            Phase::new(model, &parameters, inputs).field().to_vec()
-        })
-        .ok()?;
-        if graph.inputs() > model.dimension() {
-            return None;
-        }
-        let tape = Tape::new(&graph, &field);
-        let state: Vec<f64> = state.iter().map(|x| x.to_f64().0).collect();
-        let rates = rates(&tape, &state);
-        Some(DrawnState { tape, state, rates })
-    };
-    (0..STATES).map(one).collect()
 }
 
 /// A map as a claim: its images by variable, and a name.
@@ -340,6 +325,19 @@ mod tests {
         assert_eq!(found.len(), 2, "{found:?}");
         assert!(found[0].starts_with("reversor u1 → −u1, u2 → −u2"), "{found:?}");
         assert!(found[1].starts_with("reversor u1 → u7, u2 → u6"), "{found:?}");
+    }
+
+    #[test]
+    fn signs_of_more_than_six_scalars_are_changed() {
+        let pairs = [("x", "u"), ("y", "v"), ("z", "w"), ("s", "a")];
+        let ranges: String =
+            pairs.iter().map(|(q, p)| format!("{q} = '0.1..1'\n{p} = '0.1..1'\n")).collect();
+        let rates: String = pairs
+            .iter()
+            .map(|(q, p)| format!("\"{q}'\" = '{p}'\n\"{p}'\" = '−{q} + {q}^2 + x*y*z*s'\n"))
+            .collect();
+        let found = names(&format!("title = 'x'\n[state]\n{ranges}[field]\n{rates}"));
+        assert_eq!(found, ["reversor u → −u, v → −v, w → −w, a → −a"]);
     }
 
     fn neighbour(k: usize) -> String {

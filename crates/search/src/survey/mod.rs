@@ -19,6 +19,7 @@ mod by_value;
 mod data;
 mod definitions;
 mod description;
+mod drawn_states;
 mod exchanges;
 mod family;
 mod geometry;
@@ -121,6 +122,9 @@ pub struct Survey {
     pub fields: Vec<TestedClaim>,
     /// Reversors, with the dimensions of their fixed sets.
     pub reversors: Vec<TestedClaim>,
+    /// Maps among which reversors are sought, in words.
+    #[serde(skip)]
+    pub maps_tried: &'static str,
     /// Discrete symmetries.
     pub symmetries: Vec<TestedClaim>,
     /// Conformally Hamiltonian form, if there is a density in closed form and no rotor.
@@ -290,6 +294,7 @@ fn of_all_values(
         liouville,
         fields: sorted.fields,
         reversors,
+        maps_tried: exchanges::tried(case),
         symmetries,
         hamiltonian,
         claimed,

@@ -76,10 +76,10 @@ fn integrals_of_the_papers_are_found_and_proved() {
 #[test]
 fn densities_of_the_papers_are_found_and_proved() {
     let cases = [
-        ("plane/revolution", "g1^(1/2)*g2"),
+        ("plane/revolution", "g2*√g1"),
         ("plane/spherical-inertia", "(I1*γ3² + I3*(γ1² + γ2²) + m*(r,γ)²)^(1/2)*(I1 + m*r²)"),
         ("plane/ellipsoid", "X0^(−1/2)*det(Ĩ)*(γ,Ĩ⁻¹*γ)"),
-        ("plane/balanced-ball", "(γ,J⁻¹*γ)^(1/2)"),
+        ("plane/balanced-ball", "√(γ,J⁻¹*γ)"),
         ("sphere/balanced-ball", "(γ,J⁻¹*γ)^((1 + k*R)/2)"),
         ("sphere/ellipsoid", "det(Ĩ)*(γ,Ĩ⁻¹*γ)*D_T"),
         ("sphere/equal-sphere", "det(Ĩ)*(γ,Ĩ⁻¹*γ)"),

@@ -16,7 +16,9 @@ mod levels;
 mod low_degree;
 mod maps;
 mod parameters;
+mod published;
 mod rates;
+mod separable;
 mod threads;
 mod written_degrees;
 

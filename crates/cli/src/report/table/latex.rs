@@ -1,7 +1,7 @@
 //! Tables of the papers as LaTeX documents, for any LaTeX with amsmath, colortbl and hyperref.
 
 use super::{CellClaim, Filled, Regenerated, StatedCell, letter, one_line, target};
-use crate::report::typeset::latex::{formula, prose, widest};
+use crate::report::typeset::latex::{formula, prose, widest, with_encoding};
 
 /// Width of a column of the table in millimetres.
 const COLUMN: usize = 62;
@@ -61,7 +61,7 @@ pub fn render(table: &Regenerated) -> String {
         out.push_str(&format!("\n{line}\n"));
     }
     out.push_str("\\end{document}\n");
-    out
+    with_encoding(out)
 }
 
 fn filled(cell: &Filled, below: &mut Vec<String>) -> String {

@@ -42,7 +42,7 @@ mod implied;
 mod logarithmic;
 mod matrices;
 mod odd_powers;
-mod parsed;
+pub mod parsed;
 mod parts;
 mod plain;
 mod polynomial;
@@ -184,6 +184,12 @@ impl Extension {
         let roles: Vec<ConicRole> = varying.map(role).collect::<Option<_>>()?;
         let binds = |own: &ConicRole| matches!(own, ConicRole::Sine | ConicRole::InverseOf(_));
         (!self.has_level && roles.iter().any(binds)).then_some(ConicShape::Functions(roles))
+    }
+
+    /// The first of the given integrals, the energy if there is one, where it is read in the ring.
+    pub fn first_known(&self) -> Option<&Formula> {
+        let (place, _) = self.read.first()?;
+        self.known.first().filter(|_| *place == 0)
     }
 
     /// Adjoined exponentials.

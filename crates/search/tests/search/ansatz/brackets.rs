@@ -31,6 +31,22 @@ fn a_top_has_two_brackets() {
 }
 
 #[test]
+fn log_canonical_brackets_of_four_variables_are_found() {
+    let state = "[parameters]\nc = '1..2'\n[state]\nx = '1..2'\ny = '1..2'\nz = '1..2'\nw = '1..2'\n[field]\n";
+    let volterra = |sign: &str| {
+        format!(
+            "{state}x = 'x*(y − c*z)'\ny = 'y*(z − x)'\nz = 'z*(c*x − y)'\nw = 'w*(x {sign} y)'\n[[claim]]\n\
+             integral = 'x + y + z'\n"
+        )
+    };
+    for sign in ["+", "−"] {
+        let (_, brackets) = bracketed(&volterra(sign), Hamiltonians::Known);
+        let is_own = |own: &String| own.contains("{x,y} = x*y") && own.contains("{x,w} =");
+        assert!(brackets.iter().any(is_own), "{brackets:?}");
+    }
+}
+
+#[test]
 fn canonical_and_quadratic_brackets_are_found() {
     let state = "[state]\nx = '1..2'\ny = '1..2'\npx = '1..2'\npy = '1..2'\n";
     let henon_heiles = format!(

@@ -66,6 +66,28 @@ fn what_the_search_finds_refutes() {
     assert_eq!(found, Verdict::Refuted, "{said}");
 }
 
+#[test]
+fn densities_that_a_search_finds_refute() {
+    // ρ = (3 − z)^(−1/2): the polynomial z − 3 is negative at all states.
+    let field = |rate: &str| {
+        format!(
+            "title = 't'\n[state]\nx = '0.5..1'\ny = '0.5..1'\nz = '0.5..1'\n[field]\n\
+             \"x'\" = '−4*x*z + 13*x + 3*y'\n\"y'\" = '4*y*z − 12*y − 10*z² + 18*z + 12'\n\
+             \"z'\" = '{rate}'\n[[claim]]\nno-density = {{ degree = 3 }}\nexpect = 'open'\n"
+        )
+    };
+    let (found, said) = verdict(&field("6 − 2*z"));
+    assert_eq!(found, Verdict::Refuted, "{said}");
+    assert!(said.contains("(3 − z)^(−1/2)"), "{said}");
+    let (found, said) = verdict(&field("6 − 2*z + x*y*z²"));
+    assert_eq!(found, Verdict::Proved, "{said}");
+    // With a sine in the field no polynomials are counted: a find refutes all the same.
+    let text = "title = 't'\n[state]\nx = '0.5..1'\ny = '0.5..1'\n[field]\n\"x'\" = 'x'\n\
+                \"y'\" = 'sin(x)'\n[[claim]]\nno-density = { degree = 1 }\nexpect = 'open'\n";
+    let (found, said) = verdict(text);
+    assert_eq!(found, Verdict::Refuted, "{said}");
+}
+
 /// Verdict on the absence of further integrals of a turning motion, beside a known one.
 fn beside(known: &str, degree: u32) -> (Verdict, String) {
     verdict(&format!(

@@ -36,6 +36,17 @@ fn integrals_of_known_maps_are_written_out() {
 }
 
 #[test]
+fn integrals_over_a_density_are_short_and_found_in_other_coordinates() {
+    let own = map("", &["y", "z", "(1 + y + z)/x"]);
+    let other = map("", &["y + 2*x", "z − 2*(y + 2*x)", "(1 + y + 2*x + z)/x"]);
+    for (text, below) in [(own, "/(x*y*z)"), (other, "/(x*z*(2*x + y))")] {
+        let report = searched(&text, &Effort::default());
+        let short = report.formulas("integral").filter(|own| own.ends_with(below));
+        assert_eq!(short.count(), 2, "of order 8: {:?}", report.found);
+    }
+}
+
+#[test]
 fn a_chaotic_map_has_no_rational_integral() {
     let henon =
         searched(&map("a = '0.5..2'\nb = '0.5..2'", &["y", "1 - a*y² + b*x"]), &Effort::default());

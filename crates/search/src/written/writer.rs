@@ -1,0 +1,379 @@
+//! Fractions as texts: a product of factors, or a sum over a product.
+
+use liouville::formula::exponent_text;
+use liouville::number::rational::Rational;
+use liouville::proof::{MOST_POLYNOMIAL_WORK, Polynomial};
+use num_bigint::BigInt;
+use num_integer::Integer;
+
+use super::super::orbit::parsed::{is_bracketed, is_modulus, is_name, joined, terms as terms_of};
+use super::fraction::Fraction;
+use super::hyperbolic;
+use super::reader::Reader;
+use super::squares;
+
+/// What becomes of constant factors.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Constants {
+    /// They are written.
+    Kept,
+    /// They are left out.
+    Left,
+    /// They are left out, except for a minus sign.
+    Sign,
+}
+
+/// A text, and the constant that it has to be multiplied by.
+#[derive(Clone, Debug)]
+pub struct Written {
+    pub text: String,
+    pub constant: Fraction,
+    pub constant_text: String,
+}
+
+/// A factor of a numerator or denominator.
+#[derive(Clone)]
+struct Factor {
+    polynomial: Polynomial,
+    power: u32,
+}
+
+/// The shortest text of a fraction.
+pub fn written(reader: &mut Reader<'_>, own: &Fraction, constants: Constants) -> Option<Written> {
+    if constants == Constants::Kept
+        && let Some((number, text)) = reader.named.multiple_of_energy(own)
+    {
+        let sign = if number.is_negative() { "−" } else { "" };
+        let own = assembled(&number.abs(), &[vec![(text, 1)], Vec::new()]);
+        let (text, constant_text) = (format!("{sign}{own}"), "1".to_string());
+        return Some(Written { text, constant: Fraction::one(), constant_text });
+    }
+    let turned = hyperbolic::turned(reader, own);
+    let all = std::iter::once(own).chain(&turned);
+    let mut made: Vec<Written> = Vec::new();
+    for own in all {
+        for is_sum in [false, true] {
+            made.extend(product(reader, own, constants, is_sum));
+        }
+    }
+    made.into_iter().min_by_key(|own| own.text.chars().count())
+}
+
+/// Writes numerator and denominator as products; `is_sum` leaves the numerator as a sum.
+fn product(
+    reader: &mut Reader<'_>,
+    own: &Fraction,
+    constants: Constants,
+    is_sum: bool,
+) -> Option<Written> {
+    if own.above.is_zero() {
+        let constant = Fraction::one();
+        return Some(Written { text: "0".to_string(), constant, constant_text: "1".to_string() });
+    }
+    let (above, below) = (divided(&own.above)?, divided(&own.below)?);
+    let mut number = &above.0 * &below.0.recip()?;
+    let (mut above, below) = (above.1, below.1);
+    let is_constant = |reader: &Reader<'_>, own: &Factor| {
+        own.polynomial.variables().iter().all(|token| reader.tokens.is_constant(*token))
+    };
+    let mut left = [Vec::new(), Vec::new()];
+    let mut kept = [Vec::new(), Vec::new()];
+    if is_sum {
+        let (constant, rest): (Vec<Factor>, Vec<Factor>) =
+            above.into_iter().partition(|own| is_constant(reader, own));
+        let mut sum = Polynomial::constant(&Rational::from(1));
+        for own in &rest {
+            for _ in 0..own.power {
+                sum = sum.times(&own.polynomial, &mut { MOST_POLYNOMIAL_WORK })?;
+            }
+        }
+        above = constant;
+        above.push(Factor { polynomial: sum, power: 1 });
+    }
+    for (place, own) in [above, below].into_iter().enumerate() {
+        for factor in own {
+            match constants != Constants::Kept && is_constant(reader, &factor) {
+                true => left[place].push(factor),
+                false => kept[place].push(factor),
+            }
+        }
+    }
+    let mut is_negative = false;
+    let mut parts = [Vec::new(), Vec::new()];
+    for (own, texts) in kept.iter().zip(&mut parts) {
+        for factor in own {
+            let (turned, scale, text) = factor_text(reader, &factor.polynomial)?;
+            is_negative ^= turned && factor.power % 2 == 1;
+            let is_below = std::ptr::eq(own, &kept[1]);
+            for _ in 0..factor.power {
+                number = if is_below { &number * &scale.recip()? } else { &number * &scale };
+            }
+            texts.push((text, factor.power));
+        }
+    }
+    if number.is_negative() {
+        (is_negative, number) = (!is_negative, -&number);
+    }
+    let mut constant = Fraction::one();
+    let mut constant_text = "1".to_string();
+    if constants != Constants::Kept {
+        let sign = Rational::from(if is_negative && constants == Constants::Left { -1 } else { 1 });
+        let value = &number * &sign;
+        let mut texts = [Vec::new(), Vec::new()];
+        constant = Fraction::number(&value);
+        for (place, own) in left.iter().enumerate() {
+            for factor in own {
+                let whole = Fraction::whole(factor.polynomial.clone());
+                for _ in 0..factor.power {
+                    constant =
+                        if place == 0 { constant.times(&whole)? } else { constant.over(&whole)? };
+                }
+                let text = plain(reader, &factor.polynomial);
+                texts[place].push((text, factor.power));
+            }
+        }
+        constant_text = assembled(&value, &texts);
+        number = Rational::from(1);
+        is_negative &= constants == Constants::Sign;
+    }
+    let mut is_alone = false;
+    if is_negative {
+        let is_single = parts[1].is_empty() && parts[0].len() == 1 && number == Rational::from(1);
+        if let Some(turned) = turned(&mut parts[0], is_single) {
+            (is_negative, is_alone) = (false, turned);
+        }
+    }
+    let text = match is_alone {
+        true => parts[0].iter().map(|(text, _)| text.as_str()).collect(),
+        false => assembled(&number, &parts),
+    };
+    let text = if is_negative { negative(&text, parts[0].len() + parts[1].len()) } else { text };
+    Some(Written { text, constant, constant_text })
+}
+
+/// Takes the negative of a factor that is a sum, where that begins with a plus; of a factor that is all in any
+/// case. Returns whether it is all.
+fn turned(factors: &mut [(String, u32)], is_single: bool) -> Option<bool> {
+    for (text, power) in factors.iter_mut() {
+        if *power % 2 == 0 || !is_sum(text) {
+            continue;
+        }
+        let own = terms_of(text).into_iter().map(|(sign, own)| (!sign, own.to_string()));
+        let opposite = with_sums_first(own.collect());
+        if is_single || !opposite.starts_with('−') {
+            *text = opposite;
+            return Some(is_single);
+        }
+    }
+    None
+}
+
+fn negative(text: &str, factors: usize) -> String {
+    match factors <= 1 && text.contains([' ']) {
+        true => format!("−({text})"),
+        false => format!("−{text}"),
+    }
+}
+
+/// A number, and the fraction of polynomials with whole coefficients by which it is multiplied.
+pub fn content(own: &Fraction) -> Option<(Rational, Fraction)> {
+    let (above, below) = (whole(&own.above), whole(&own.below));
+    let work = &mut { MOST_POLYNOMIAL_WORK };
+    let number =
+        |own: &Polynomial, whole: &Polynomial, work: &mut usize| own.over(whole, work)?.number();
+    let upper = number(&own.above, &above, work)?;
+    let lower = number(&own.below, &below, work)?;
+    Some((&upper * &lower.recip()?, Fraction { above, below }))
+}
+
+/// Divides a polynomial into factors of whole coefficients and a number.
+fn divided(own: &Polynomial) -> Option<(Rational, Vec<Factor>)> {
+    let work = &mut { MOST_POLYNOMIAL_WORK };
+    let mut rest = own.clone();
+    let mut all = Vec::new();
+    for factor in own.factors() {
+        let polynomial = whole(&factor);
+        let mut power = 0;
+        while let Some(quotient) = rest.over(&polynomial, work) {
+            (rest, power) = (quotient, power + 1);
+        }
+        if power > 0 {
+            all.push(Factor { polynomial, power });
+        }
+    }
+    // Variables come before sums, in the order of the file.
+    all.sort_by_key(|own| (own.polynomial.size(), own.polynomial.variables()));
+    match rest.number() {
+        Some(number) => Some((number, all)),
+        None => {
+            let polynomial = whole(&rest);
+            let number = rest.over(&polynomial, work)?.number()?;
+            all.push(Factor { polynomial, power: 1 });
+            Some((number, all))
+        }
+    }
+}
+
+/// The multiple with whole coefficients without common divisor.
+fn whole(own: &Polynomial) -> Polynomial {
+    let parts = || own.terms().map(|(value, _)| value.parts());
+    let below = parts().fold(BigInt::from(1), |lcm, (_, below)| lcm.lcm(&below));
+    let above = parts().fold(BigInt::ZERO, |gcd, (above, own)| gcd.gcd(&(above * (&below / own))));
+    match above == BigInt::ZERO {
+        true => own.clone(),
+        false => own.scaled(&Rational::from_parts(below, above)),
+    }
+}
+
+/// A factor's text with whether it is that of the negative, and a number that it has to be multiplied by.
+fn factor_text(reader: &mut Reader<'_>, own: &Polynomial) -> Option<(bool, Rational, String)> {
+    let one = Rational::from(1);
+    let (turned, text) = positive(terms(reader, own)?);
+    if let Some((scale, named)) = reader.named.of_polynomial(own)
+        && named.chars().count() <= text.chars().count()
+    {
+        return Some((scale.is_negative(), scale.abs(), named));
+    }
+    if let Some(squares) = squares::sum(own, &|token| reader.tokens.text(token).to_string())
+        && squares.chars().count() < text.chars().count()
+    {
+        return Some((false, one, squares));
+    }
+    Some((turned, one, text))
+}
+
+/// A sum, or its negative where most terms are negative, with a positive term first; and whether it is the negative.
+fn positive(terms: Vec<(bool, String)>) -> (bool, String) {
+    let negative = terms.iter().filter(|(is_negative, _)| *is_negative).count();
+    let turned = 2 * negative > terms.len();
+    let own = terms.into_iter().map(|(is_negative, text)| (is_negative != turned, text));
+    (turned, with_sums_first(own.collect()))
+}
+
+fn with_sums_first(mut terms: Vec<(bool, String)>) -> String {
+    terms.sort_by_key(|(is_negative, _)| *is_negative);
+    joined(terms)
+}
+
+/// Terms of a polynomial, one for each product of powers of the variables that are not constant.
+fn terms(reader: &mut Reader<'_>, own: &Polynomial) -> Option<Vec<(bool, String)>> {
+    let mut moving: Vec<u32> = own.variables();
+    moving.retain(|token| !reader.tokens.is_constant(*token));
+    let mut groups: Vec<(Vec<u32>, Polynomial)> = own.collected(&moving).into_iter().collect();
+    groups.sort_by_key(|(powers, _)| {
+        let falling: Vec<i64> = powers.iter().map(|power| -i64::from(*power)).collect();
+        (powers.iter().sum::<u32>(), falling)
+    });
+    let mut all = Vec::new();
+    for (powers, coefficient) in groups {
+        let mut monomial = Vec::new();
+        for (token, power) in moving.iter().zip(&powers).filter(|(_, power)| **power > 0) {
+            monomial.push((reader.tokens.text(*token).to_string(), *power));
+        }
+        if monomial.is_empty() && coefficient.size() > 1 {
+            for (value, exponents) in coefficient.terms() {
+                all.push(term(reader, value, exponents));
+            }
+            continue;
+        }
+        if let Some((value, exponents)) = coefficient.as_term() {
+            let (is_negative, number) = (value.is_negative(), value.abs());
+            let mut factors = named_powers(reader, exponents);
+            factors.extend(monomial);
+            all.push((is_negative, assembled(&number, &[factors, Vec::new()])));
+            continue;
+        }
+        let (mut number, factors) = divided(&coefficient)?;
+        let mut texts = Vec::new();
+        for factor in factors {
+            let (turned, text) = positive(plain_terms(reader, &factor.polynomial));
+            if turned && factor.power % 2 == 1 {
+                number = -&number;
+            }
+            texts.push((text, factor.power));
+        }
+        texts.extend(monomial);
+        all.push((number.is_negative(), assembled(&number.abs(), &[texts, Vec::new()])));
+    }
+    Some(all)
+}
+
+fn named_powers(reader: &Reader<'_>, exponents: &[(u32, u32)]) -> Vec<(String, u32)> {
+    let named = |(token, power): &(u32, u32)| (reader.tokens.text(*token).to_string(), *power);
+    exponents.iter().map(named).collect()
+}
+
+fn term(reader: &Reader<'_>, value: &Rational, exponents: &[(u32, u32)]) -> (bool, String) {
+    let factors = named_powers(reader, exponents);
+    (value.is_negative(), assembled(&value.abs(), &[factors, Vec::new()]))
+}
+
+/// Terms of a polynomial, one by one.
+fn plain_terms(reader: &Reader<'_>, own: &Polynomial) -> Vec<(bool, String)> {
+    let mut all: Vec<_> = own.terms().collect();
+    all.sort_by_key(|(_, exponents)| exponents.iter().map(|(_, power)| *power).sum::<u32>());
+    all.into_iter().map(|(value, exponents)| term(reader, value, exponents)).collect()
+}
+
+fn plain(reader: &Reader<'_>, own: &Polynomial) -> String {
+    joined(plain_terms(reader, own))
+}
+
+/// A positive number times a product over another.
+fn assembled(number: &Rational, [above, below]: &[Vec<(String, u32)>; 2]) -> String {
+    let (numerator, denominator) = number.parts();
+    let one = BigInt::from(1);
+    let is_alone = |count: usize, below: bool| count == 1 && !below;
+    let count = |own: &[(String, u32)], value: &BigInt| own.len() + usize::from(*value != one);
+    let (upper, lower) = (count(above, &numerator), count(below, &denominator));
+    let write = |own: &[(String, u32)], value: &BigInt, alone: bool| -> String {
+        let mut texts = Vec::new();
+        if *value != one {
+            texts.push(value.to_string());
+        }
+        for (text, power) in own {
+            texts.push(match power {
+                1 if alone || !is_sum(text) => text.clone(),
+                1 => format!("({text})"),
+                power => {
+                    let is_base =
+                        is_name(text) || is_bracketed(text) || is_modulus(text) || is_entry(text);
+                    let base = if is_base { text.clone() } else { format!("({text})") };
+                    format!("{base}{}", exponent_text(i64::from(*power)))
+                }
+            });
+        }
+        texts.join("*")
+    };
+    let top = match upper {
+        0 => "1".to_string(),
+        _ => write(above, &numerator, is_alone(upper, lower > 0)),
+    };
+    match lower {
+        0 => top,
+        1 => format!("{top}/{}", write(below, &denominator, false)),
+        _ => format!("{top}/({})", write(below, &denominator, false)),
+    }
+}
+
+/// Whether a text has to stand in brackets as a factor.
+pub fn is_sum(text: &str) -> bool {
+    let mut depth = 0i32;
+    let mut before = ' ';
+    for letter in text.chars() {
+        match letter {
+            '(' | '[' => depth += 1,
+            ')' | ']' => depth -= 1,
+            '+' | '−' | '-' if depth == 0 && before != '^' => return true,
+            _ => {}
+        }
+        before = letter;
+    }
+    false
+}
+
+/// Whether a text is an entry of a vector or matrix.
+fn is_entry(text: &str) -> bool {
+    let name = text.split_once('[').map(|(name, _)| name);
+    name.is_some_and(is_name) && text.ends_with([']', '\''])
+}
