@@ -4,7 +4,7 @@ use super::claim_state::ClaimState;
 use super::evidence::{ClaimReport, Flaw, Verdict};
 use super::judge::{Options, Trust};
 use super::recorded::RecordedClaim;
-use crate::case::{Case, Expect};
+use crate::case::Case;
 use crate::claim::ClaimKind;
 
 /// Remark on a value that is shown not to vanish at some states, and may vanish at others.
@@ -115,11 +115,7 @@ pub fn report(
         let silence = evidence.silence.as_deref().unwrap_or("none was found");
         evidence.reason = Some(format!("a proof is required: {silence}"));
     }
-    let agrees = match claim.expect {
-        Expect::Open => true,
-        Expect::Holds => holds && enough && !(claim.only_there && elsewhere),
-        Expect::Fails => verdict == Verdict::Refuted,
-    };
+    let agrees = verdict.agrees(claim.expect, enough && !(claim.only_there && elsewhere));
     if holds && claim.only_there && elsewhere {
         evidence.reason = Some("the claim says that it holds only there".to_string());
     }

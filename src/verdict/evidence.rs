@@ -32,6 +32,16 @@ impl Verdict {
             Verdict::Undecided => "undecided",
         }
     }
+
+    /// Whether the verdict agrees with an expectation; `is_enough` says whether a claim that is proved or
+    /// confirmed holds as the run and the claim ask.
+    pub fn agrees(self, expect: Expect, is_enough: bool) -> bool {
+        match expect {
+            Expect::Open => true,
+            Expect::Holds => is_enough && matches!(self, Verdict::Proved | Verdict::Confirmed),
+            Expect::Fails => self == Verdict::Refuted,
+        }
+    }
 }
 
 /// A state at which a claim fails, in the form read by `eval`.

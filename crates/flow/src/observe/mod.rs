@@ -30,7 +30,7 @@ use rayon::prelude::*;
 use crate::halt::Halt;
 use crate::{FlowError, Obstacle, Request};
 use crate::{HorseshoeData, ProofData, ProvedHorseshoe, ProvedOrbit, replay, replay_horseshoe};
-use liouville::case::{Case, Expect, MotionClaim};
+use liouville::case::{Case, MotionClaim};
 use liouville::claim::motion::MotionKind;
 use liouville::verdict::{
     self, CaseReport, ClaimReport, Evidence, JudgeError, Method, Options, Trust, Verdict,
@@ -210,11 +210,7 @@ fn report(
     if verdict == Verdict::Confirmed && !enough {
         evidence.reason = Some("a proof was asked for, and motions are only observed".to_string());
     }
-    let agrees = match claim.expect {
-        Expect::Open => true,
-        Expect::Holds => verdict == Verdict::Proved || verdict == Verdict::Confirmed && enough,
-        Expect::Fails => verdict == Verdict::Refuted,
-    };
+    let is_enough = enough || verdict == Verdict::Proved;
     ClaimReport {
         name: claim.name.clone(),
         formula: Some(claim.kind.text()),
@@ -223,7 +219,7 @@ fn report(
         place: format!("from {}", claim.kind.beginning().text()),
         expect: claim.expect,
         verdict,
-        agrees,
+        agrees: verdict.agrees(claim.expect, is_enough),
         cell: None,
         note: claim.note.clone(),
         evidence,

@@ -1,6 +1,6 @@
 //! Outcomes of claims of absence as reports.
 
-use liouville::case::{AbsenceClaim, Expect};
+use liouville::case::AbsenceClaim;
 use liouville::verdict::{ClaimReport, Evidence, Method, Verdict};
 
 use super::AbsenceOutcome;
@@ -22,11 +22,6 @@ pub(super) fn report(claim: &AbsenceClaim, outcome: AbsenceOutcome) -> ClaimRepo
             Verdict::Undecided
         }
     };
-    let agrees = match claim.expect {
-        Expect::Open => true,
-        Expect::Holds => verdict == Verdict::Proved,
-        Expect::Fails => verdict == Verdict::Refuted,
-    };
     ClaimReport {
         name: claim.name.clone(),
         formula: None,
@@ -35,7 +30,7 @@ pub(super) fn report(claim: &AbsenceClaim, outcome: AbsenceOutcome) -> ClaimRepo
         place: "level".to_string(),
         expect: claim.expect,
         verdict,
-        agrees,
+        agrees: verdict.agrees(claim.expect, true),
         cell: claim.cell.clone(),
         note: claim.note.clone(),
         evidence,

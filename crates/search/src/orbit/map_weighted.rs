@@ -41,7 +41,7 @@ pub fn search(
     for density in densities.iter().filter(|own| own.constant().is_none()) {
         let (graph, tape) = recorded(setting.case, |jet| {
             let value = jet.phase.scalar(density);
-            let slopes = jet.along_axes().into_iter().map(|own| own.scalar(density).eps);
+            let slopes = jet.along_axes().iter().map(|own| own.scalar(density).eps);
             let mut outputs = jet.phase.field().to_vec();
             outputs.push(value);
             outputs.extend(slopes.collect::<Vec<_>>());
