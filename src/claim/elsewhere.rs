@@ -5,7 +5,7 @@ use num_traits::Zero;
 use super::{Condition, Need};
 use crate::formula::Formula;
 use crate::graph::{Expr, edges, has_moduli};
-use crate::mechanics::{Model, Phase};
+use crate::mechanics::{Model, Phase, System};
 
 /// Records the equations of motion as written at the image of a state: where they have no value the image
 /// is not in phase space.
@@ -17,11 +17,13 @@ pub(super) fn system_at(at: &Phase<'_, Expr>) -> Vec<Expr> {
     values
 }
 
-/// Records the same at a point that a claim names, where √x² may have a value and no slope.
+/// Records the same at a point that a claim names. The slope of an energy has no value there where what is
+/// under a root is 0: that of √x² at 0.
 pub(super) fn system_at_point(at: &Phase<'_, Expr>) -> Vec<Expr> {
-    let mut values = formulas_at(at);
-    values.extend(at.motion_as_written());
-    values
+    match at.model().system {
+        System::Field(_) | System::Map(_) => formulas_at(at),
+        _ => inside(formulas_at(at)),
+    }
 }
 
 fn formulas_at(at: &Phase<'_, Expr>) -> Vec<Expr> {

@@ -7,6 +7,7 @@
 use nalgebra::Vector3;
 use num_dual::DualNum;
 
+use super::elsewhere::inside;
 use crate::graph::{Evaluator, Expr, Tape, record};
 use crate::mechanics::{DrawSource, Model, NORMAL, Phase};
 use crate::number::Domain;
@@ -73,7 +74,9 @@ fn excludes(model: &Model, direction: RestDirection, up: bool) -> Option<()> {
             let across: [Expr; 3] = rotor.cross(&axis).into();
             across
         }));
-        (torque, phase.motion_as_written(), model.system.criterion(&phase).first().copied())
+        let potential = model.system.potential_formula().into_iter();
+        let potential = potential.flat_map(|own| phase.evaluate_literally(own).components());
+        (torque, inside(potential.collect()), model.system.criterion(&phase).first().copied())
     })
     .ok()?;
     let along = along?;

@@ -65,6 +65,7 @@ impl Vocabulary {
 
     /// Adds a name; a later entry of the same name hides the earlier one.
     pub fn add(&mut self, name: &str, meaning: Meaning, kind: Type, reach: Dependence) {
+        self.awaited.remove(name);
         self.by_name.insert(name.to_string(), self.entries.len() as u32);
         self.entries.push(VocabularyEntry {
             name: name.to_string(),

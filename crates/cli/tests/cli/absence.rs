@@ -155,7 +155,8 @@ fn planted_integrals_of_fields_are_never_excluded() {
 fn planted_integrals_in_curved_coordinates_are_never_excluded() {
     let mut dice = Dice(2);
     let mut refuted = 0;
-    for plant in 0..plants(20) {
+    let all = plants(20);
+    for plant in 0..all {
         // u + a v² and v + b w³ or w + b u v, with linear forms u, v, w: coordinates that are bent.
         let [u, v, w] = [0, 1, 2].map(|_| Polynomial::form(&mut dice));
         let bent = u.plus(&v.times(&v).scaled(dice.unit()));
@@ -181,7 +182,7 @@ fn planted_integrals_in_curved_coordinates_are_never_excluded() {
             refuted += usize::from(report.verdict == Verdict::Refuted);
         }
     }
-    assert!(refuted >= 140, "{refuted} of 150 claims are refuted");
+    assert!(refuted * 10 >= 3 * all * 9, "{refuted} of {} claims are refuted", 3 * all);
 }
 
 #[test]

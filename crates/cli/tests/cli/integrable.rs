@@ -51,7 +51,7 @@ fn more_integrals_make_closed_orbits() {
     assert_eq!(found["liouville"]["tori"], 2);
     let typical = lines(&found, "typical");
     assert!(typical.contains("superintegrable: 3 independent integrals"), "{typical}");
-    assert!(typical.contains("each motion on such a torus is closed"), "{typical}");
+    assert!(typical.contains("on such a torus, each motion on it is closed"), "{typical}");
     assert!(!typical.contains("two-dimensional tori"), "{typical}");
 }
 

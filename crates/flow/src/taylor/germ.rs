@@ -60,7 +60,7 @@ impl Affine {
     }
 
     /// Returns λ and μ if this is λ v + μ.
-    fn along(&self, v: &Self) -> Option<[Rational; 2]> {
+    pub(super) fn along(&self, v: &Self) -> Option<[Rational; 2]> {
         let (place, weight) = v.terms.first_key_value()?;
         let factor = match self.terms.get(place) {
             Some(own) => own * &weight.recip()?,

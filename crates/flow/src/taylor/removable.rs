@@ -21,6 +21,10 @@ const MOST_PLACES: usize = 8;
 /// Part of the largest term below which terms of a series are left out: below the rounding of
 /// double-double.
 const LEFT_OUT: f64 = 1e-33;
+/// Part of the largest number on the way below which a sum counts as 0, and a fraction whose multiples
+/// are far from each other.
+const CANCELLED: f64 = 1e-9;
+const GOLDEN: f64 = 0.618_033_988_749_895;
 /// Number of times that the reach of a series is halved.
 const MOST_HALVES: i32 = 12;
 
@@ -52,6 +56,10 @@ impl Removable {
 
     /// The quotient of the factors that are 0 where `variable` is, if it has a limit.
     fn at(graph: &Graph, factors: &[(usize, i32)], variable: Affine) -> Option<Self> {
+        let divisors = factors.iter().filter(|(_, power)| *power < 0);
+        if !divisors.into_iter().any(|(place, _)| may_vanish(graph, *place, &variable)) {
+            return None;
+        }
         let (mut dividend, mut zeros) = (Germ::of_constant(Rational::from(1)), 0i64);
         let mut own = Vec::new();
         let mut has_function = false;
@@ -186,6 +194,53 @@ fn variables(graph: &Graph, divisor: usize) -> Option<Vec<Affine>> {
     }
     found.truncate(MOST_PLACES);
     Some(found)
+}
+
+/// Whether a step seems to be 0 where v is, whatever the other steps are: numbers stand for these. Its
+/// series takes a thousand times as long.
+fn may_vanish(graph: &Graph, place: usize, v: &Affine) -> bool {
+    let Some(parts) = parts(graph, place) else { return false };
+    let affine = affine(graph, &parts);
+    let (mut values, mut largest) = (BTreeMap::<usize, f64>::new(), 0.0f64);
+    for place in parts {
+        let value = match affine.get(&place).and_then(|own| own.along(v)) {
+            Some([_, constant]) => constant.to_f64().0,
+            None => number_of(graph.step(place), place, &values),
+        };
+        largest = largest.max(value.abs());
+        values.insert(place, value);
+    }
+    let own = values.get(&place).copied().unwrap_or(f64::NAN);
+    // Without a number nothing is known.
+    !own.is_finite() || own.abs() <= CANCELLED * largest
+}
+
+/// Value of a step by those of its arguments; an input has a number of its own.
+fn number_of(step: Step<'_>, place: usize, values: &BTreeMap<usize, f64>) -> f64 {
+    let at = |a: usize| values.get(&a).copied().unwrap_or(f64::NAN);
+    match step {
+        Step::Constant(value) => value.to_f64().0,
+        Step::Input(_) => 0.5 + (place as f64 * GOLDEN).fract(),
+        Step::Binary(BinaryOperation::Add, a, b) => at(a) + at(b),
+        Step::Binary(BinaryOperation::Sub, a, b) => at(a) - at(b),
+        Step::Binary(BinaryOperation::Mul, a, b) => at(a) * at(b),
+        Step::Binary(BinaryOperation::Pow, a, b) => libm::pow(at(a).abs(), at(b)),
+        Step::Power(a, exponent) => match exponent.to_integer() {
+            Some(whole) => libm::pow(at(a), whole as f64),
+            None => libm::pow(at(a).abs(), exponent.to_f64().0),
+        },
+        Step::Unary(function, a) => match function {
+            UnaryFunction::Neg => -at(a),
+            UnaryFunction::Recip => at(a).recip(),
+            UnaryFunction::Sqrt => libm::sqrt(at(a).abs()),
+            UnaryFunction::Abs => at(a).abs(),
+            UnaryFunction::Exp => libm::exp(at(a)),
+            UnaryFunction::Ln => libm::log(at(a).abs()),
+            UnaryFunction::Sin => libm::sin(at(a)),
+            UnaryFunction::Cos => libm::cos(at(a)),
+            UnaryFunction::Atan => libm::atan(at(a)),
+        },
+    }
 }
 
 /// Series of a step in v, and whether functions enter it.

@@ -22,7 +22,8 @@ fn planted(f: &Polynomial, dice: &mut Dice) -> ([String; 3], String) {
 fn planted_relations_are_never_excluded() {
     let mut dice = Dice(7);
     let (mut refuted, mut proved, mut others) = (0, 0, 0);
-    for plant in 0..plants(3) {
+    let all = plants(3);
+    for plant in 0..all {
         let degree = 1 + (plant % 2) as u32;
         let f = Polynomial::random(&mut dice, degree).plus(&Polynomial(vec![(1, [0, 0, 0])]));
         let (rates, cofactor) = planted(&f, &mut dice);
@@ -40,8 +41,11 @@ fn planted_relations_are_never_excluded() {
             _ => assert!(reason.contains("related along each orbit"), "{what}: {reason}"),
         }
     }
-    assert!(refuted >= 5, "{refuted} of 6 claims are refuted");
-    assert!(proved >= 4, "{proved} of 6 claims with the relation are proved, {others} refuted");
+    assert!(refuted * 4 >= all * 3, "{refuted} of {all} claims are refuted");
+    assert!(
+        proved * 5 >= all * 3,
+        "{proved} of {all} claims with the relation are proved, {others} refuted"
+    );
 }
 
 #[test]
