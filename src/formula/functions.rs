@@ -297,6 +297,11 @@ pub(super) fn usage(name: &str) -> String {
     format!("write {}", calls.join(" or "))
 }
 
+/// Whether the function of this name takes one argument.
+pub(super) fn takes_one(name: &str) -> bool {
+    overloads(name).all(|own| matches!(own.arguments, These([_])))
+}
+
 fn overloads(name: &str) -> impl Iterator<Item = &'static Overload> {
     FUNCTIONS.iter().filter(move |function| function.names.contains(&name))
 }

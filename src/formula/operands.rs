@@ -119,10 +119,10 @@ impl Parser<'_> {
                 TokenKind::Caret | TokenKind::Superscript => {
                     format!("{}; its power is `({name}(x))^2`", functions::usage(name))
                 }
-                TokenKind::Name | TokenKind::Number => {
+                TokenKind::Name | TokenKind::Number if functions::takes_one(name) => {
                     format!("write `{name}({})`", self.text(&self.token().span))
                 }
-                TokenKind::Bar => format!("write `{name}(|x|)`"),
+                TokenKind::Bar if functions::takes_one(name) => format!("write `{name}(|x|)`"),
                 _ => functions::usage(name),
             };
             let error = FormulaError::new(span, format!("`{name}` is a function"));

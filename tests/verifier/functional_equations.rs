@@ -51,7 +51,7 @@ fn functional_equations_hold_in_balls() {
             .expect("elementary functions record");
     let tape = Tape::new(&graph, &outputs);
     let counts = EQUATIONS.map(|_| Cell::new(0u32));
-    let outcome = TestRunner::new(config(4_000)).run(&(positive(), positive()), |(x, y)| {
+    let outcome = TestRunner::new(config(10_000)).run(&(positive(), positive()), |(x, y)| {
         let mut evaluator = Evaluator::new(&tape, Ball::<1>);
         evaluator.run(&[x, y].map(|value| Ball::<1>.values(&[rational(&dyadic(value))])));
         for ((equation, _), (ball, count)) in EQUATIONS.iter().zip(evaluator.outputs().zip(&counts))

@@ -54,7 +54,7 @@ fn every_operation_holds_what_comes_of_the_edges_of_its_arguments() {
     let wide = OPERATIONS.map(|_| Cell::new(0u32));
     let numbers = ((1i64..2000, 1i64..100), (-500i64..500, 1i64..100), -4i32..=4);
     let shifts = prop::collection::vec(shift(), 5);
-    let outcome = TestRunner::new(config(1500)).run(&(numbers, shifts), |(numbers, shifts)| {
+    let outcome = TestRunner::new(config(4000)).run(&(numbers, shifts), |(numbers, shifts)| {
         let ((a, b), (c, d), n) = numbers;
         let t = BigRational::new(a.into(), b.into());
         let s = BigRational::new(c.into(), d.into());

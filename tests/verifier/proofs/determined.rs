@@ -99,5 +99,6 @@ fn a_fold_is_never_overlooked() {
             }
         }
     }
-    assert!(inverted > 12, "{inverted} of 24 inverses are found");
+    let all = draws(10);
+    assert!(2 * inverted > all, "{inverted} of {all} inverses are found");
 }
