@@ -138,8 +138,8 @@ impl Dependences {
     fn of(graph: &Graph, residual: Expr, constant: usize, inputs: &[Expr]) -> Option<Self> {
         let reached = graph.reached([residual]);
         let mut found = Self { forms: Vec::new(), exponents: Vec::new() };
-        for place in 0..=graph.place(residual) {
-            if !reached[place] {
+        for (place, is_needed) in reached.iter().enumerate().take(graph.place(residual) + 1) {
+            if !is_needed {
                 found.forms.push(Form::default());
                 continue;
             }
