@@ -76,8 +76,13 @@ fn check(source: &Source) -> Result<Value, Vec<FileFailure>> {
     };
     let failures = judged.as_ref().err().map(|failures| listed(failures));
     let heading = case.map_or_else(|_| Heading::default(), |case| Heading::of(&case, &source.text));
-    let outcome =
-        FileOutcome { path: source.path.clone(), heading, result: judged, unreached: Vec::new() };
+    let outcome = FileOutcome {
+        path: source.path.clone(),
+        heading,
+        result: judged,
+        unreached: Vec::new(),
+        is_reached: true,
+    };
     let run =
         RunReport { seed: options.seed, outcomes: vec![outcome], elapsed: Duration::default() };
     let document = json::render(&run).map_err(unwritten)?;

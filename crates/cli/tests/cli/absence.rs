@@ -12,7 +12,7 @@ mod spheres;
 mod twins;
 mod wide;
 
-use crate::common::case;
+use crate::common::{case, plants};
 use assert_cmd::Command;
 use liouville::case::Case;
 use liouville::verdict::{ClaimReport, Options, Verdict};
@@ -125,12 +125,6 @@ fn field(rates: [String; 3], claims: &str) -> String {
 fn cross(a: &[String; 3], b: &[String; 3]) -> [String; 3] {
     [(1, 2), (2, 0), (0, 1)]
         .map(|(i, j)| format!("(({})*({}) − ({})*({}))", a[i], b[j], a[j], b[i]))
-}
-
-/// Number of systems made around an invariant: `LIOUVILLE_DRAWS` times as many as usual.
-fn plants(usual: usize) -> usize {
-    let times = std::env::var("LIOUVILLE_DRAWS").ok();
-    usual * times.map_or(1, |text| text.parse::<usize>().expect("LIOUVILLE_DRAWS is a number"))
 }
 
 #[test]

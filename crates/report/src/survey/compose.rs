@@ -306,7 +306,7 @@ fn maps(survey: &Survey) -> Vec<SectionBlock> {
         cells
     };
     if survey.reversors.is_empty() {
-        found.push(text(&format!("No reversor was found among {}.", survey.maps_tried)));
+        found.push(text(format!("No reversor was found among {}.", survey.maps_tried)));
     } else {
         found.push(text(
             "Reversors, with the dimension of what they leave in place on the level set:",
