@@ -6,7 +6,7 @@ use liouville::case::{Case as Inner, Direction};
 use liouville::number::rational::Rational;
 use liouville_cli::report::{exponents as written, orbit};
 use liouville_flow::{
-    Begin, Character, ChartAxis, Columns, CrossingSurface, Exponents, FlowError, Launches,
+    Begin, Character, ChartAxis, Columns, CrossingSurface, Exponents, Fixed, FlowError, Launches,
     Launchpad, Lexicon, PlaneRequest, Precision, Sampling, SectionChoice, SectionOrbit, Start,
     SurfaceOrbit, SurfaceRequest, Variational,
 };
@@ -65,7 +65,7 @@ fn starts(
     given: &[Option<Given>],
     (seed, index): (u64, u64),
 ) -> PyResult<Vec<Result<Start, FlowError>>> {
-    let launches = Launches { case, energy: None, pad: None, seed, index };
+    let launches = Launches { case, fixed: &[], pad: None, seed, index };
     given.iter().map(|one| start::find(py, &launches, one.as_ref())).collect()
 }
 
@@ -92,7 +92,7 @@ pub fn orbits<'py>(
     let work = Work::on(threads);
     let count = work.threads();
     let found = work.alone(py, move || {
-        let sampling = Sampling { columns: &columns, every };
+        let sampling = Sampling { columns: &columns, every, with_steps: false };
         let followed = (&time, precision);
         let sampling = Some(&sampling);
         liouville_flow::orbits(&inner, &starts, followed, sampling, count, &|_| ())
@@ -201,7 +201,8 @@ pub fn surface<'py>(
     let direction = direction(way)?.unwrap_or_default();
     let energy = energy.as_deref().map(start::number).transpose()?;
     let pad = Some(Launchpad { surface: &surface, axes: &axes, direction });
-    let launches = Launches { case: &inner, energy: energy.as_ref(), pad, seed, index: 0 };
+    let fixed: Vec<Fixed> = energy.into_iter().map(Fixed::energy).collect();
+    let launches = Launches { case: &inner, fixed: &fixed, pad, seed, index: 0 };
     let mut starts = Vec::new();
     for (place, one) in given.iter().enumerate() {
         let begin = match one {
