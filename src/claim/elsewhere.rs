@@ -5,7 +5,7 @@ use num_traits::Zero;
 use super::{Condition, Need};
 use crate::formula::Formula;
 use crate::graph::{Expr, edges, has_moduli};
-use crate::mechanics::{Model, Phase, System};
+use crate::mechanics::{Model, Phase};
 
 /// Records the equations of motion as written at the image of a state: where they have no value the image
 /// is not in phase space.
@@ -20,9 +20,9 @@ pub(super) fn system_at(at: &Phase<'_, Expr>) -> Vec<Expr> {
 /// Records the same at a point that a claim names. The slope of an energy has no value there where what is
 /// under a root is 0: that of √x² at 0.
 pub(super) fn system_at_point(at: &Phase<'_, Expr>) -> Vec<Expr> {
-    match at.model().system {
-        System::Field(_) | System::Map(_) => formulas_at(at),
-        _ => inside(formulas_at(at)),
+    match at.model().system.has_given_rates() {
+        true => formulas_at(at),
+        false => inside(formulas_at(at)),
     }
 }
 

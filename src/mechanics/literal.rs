@@ -1,7 +1,6 @@
 //! Recorded values without which formulas, as written, have none.
 
 use super::phase::Phase;
-use super::system::System;
 use crate::formula::{Exponents, Formula, Symbol, Value};
 use crate::graph::{Expr, literally, logarithms_times_zero};
 use crate::scalar::Scalar;
@@ -43,7 +42,7 @@ impl Phase<'_, Expr> {
     /// Records the equations of motion that are derived from energies so that they are defined exactly
     /// where all slopes in them are: that of √x² is 0·(1/0) at 0. Rates that a file gives are formulas.
     pub fn motion_as_written(&self) -> Vec<Expr> {
-        if matches!(self.model().system, System::Field(_) | System::Map(_)) {
+        if self.model().system.has_given_rates() {
             return Vec::new();
         }
         let rates = literally(|| self.with(&[], &self.state()).field().to_vec());

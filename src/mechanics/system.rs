@@ -156,6 +156,11 @@ impl System {
         matches!(self, System::Map(_))
     }
 
+    /// Whether the file gives the rates, or the images, as formulas; otherwise they are derived from energies.
+    pub fn has_given_rates(&self) -> bool {
+        matches!(self, System::Field(_) | System::Map(_))
+    }
+
     /// Whether the rates of velocities are more than quadratic forms of the velocities, because of
     /// a potential, a gyrostat or a rotation.
     pub fn energy_is_inhomogeneous(&self) -> bool {

@@ -173,7 +173,7 @@ impl<'c> Reader<'c> {
         Some(if is_shorter { written } else { text.to_string() })
     }
 
-    /// What stands between bars, without a minus sign before it.
+    /// Content of bars, without a minus sign before it.
     fn modulus(&mut self, read: &Fraction) -> Option<String> {
         let opposite = Fraction::number(&Rational::from(-1)).times(read)?;
         let mut texts = Vec::new();

@@ -12,7 +12,7 @@ use super::hyperbolic;
 use super::reader::Reader;
 use super::squares;
 
-/// What becomes of constant factors.
+/// Treatment of constant factors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Constants {
     /// They are written.

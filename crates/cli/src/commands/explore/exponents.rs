@@ -58,7 +58,7 @@ pub fn run(options: &ExponentsArgs) -> Result<CommandOutput, String> {
         return map_exponents::run(options);
     }
     if options.iterates.is_some() {
-        return Err("error: --iterates: the case is no map, and its motions have a time\n\
+        return Err("error: --iterates: the case is not a map, and its motions have a time\n\
                     help: give --time"
             .to_string());
     }
