@@ -45,7 +45,10 @@ impl Statement for Divergence {
     fn text(&self) -> Option<String> {
         let divergence = self.divergence.text().trim();
         Some(match &self.volume {
-            Some(volume) => format!("div({}*v)/({0}) = {divergence}", volume.text().trim()),
+            Some(volume) => {
+                let volume = volume.bracketed();
+                format!("div({}*v)/{0} = {divergence}", volume.text().trim())
+            }
             None => format!("div v = {divergence}"),
         })
     }

@@ -19,6 +19,7 @@ use crate::graph::Expr;
 use crate::mechanics::calculus::DualPoint;
 use crate::mechanics::elimination::dot;
 use crate::mechanics::{Model, MotionBracket, System, size_of_variables};
+use crate::number::rational::Rational;
 use crate::scalar::Scalar;
 
 /// Key of the theorem whose hypotheses are claimed.
@@ -67,8 +68,9 @@ impl Statement for Involution {
                 return Err(from.complaint(THEOREM, message, "write theorem = \"Liouville\""));
             }
         };
-        // At another place there are more dimensions; without enough functions the ranks fail.
-        if is_complete && from.text(PLACE)?.is_none() {
+        // On fewer equations of the level there are more dimensions; without enough functions the ranks fail.
+        let is_whole = from.text(PLACE)?.is_none() || from.model().level.is_empty();
+        if is_complete && is_whole {
             check_number(from, count)?;
         }
         Ok(Self { functions, bracket, is_own, is_complete })
@@ -132,13 +134,19 @@ impl Statement for Involution {
             let otherwise = "the functions are dependent".to_string();
             let need = Need::Rank { rows, rank: count };
             conditions.push(Condition { need, otherwise, is_essential: true });
-            if let MotionBracket::OfVariables(_) = self.bracket {
-                let rows = self.covectors(jet).iter().map(|own| turned(&tensor, own)).collect();
-                let need = Need::Rank { rows, rank: dimension.saturating_sub(count) };
-                let otherwise =
-                    "the fields of the functions do not span the joint levels".to_string();
-                conditions.push(Condition { need, otherwise, is_essential: true });
-            }
+            let others = dimension.saturating_sub(count);
+            let need = match self.bracket {
+                MotionBracket::OfVariables(_) => {
+                    let rows = self.covectors(jet).iter().map(|own| turned(&tensor, own)).collect();
+                    Need::Rank { rows, rank: others }
+                }
+                // No combination of independent functions has the field 0.
+                MotionBracket::OfMomenta => Need::NotZero {
+                    value: Expr::rational(&Rational::from(i64::from(others <= count))),
+                },
+            };
+            let otherwise = "the fields of the functions do not span the joint levels".to_string();
+            conditions.push(Condition { need, otherwise, is_essential: true });
         }
         conditions
     }

@@ -326,7 +326,8 @@ impl ClaimKind {
             let message =
                 format!("`{}` is a claim about a flow, and the case is a map", self.name());
             let remedy = "of a map, claim integral, density, symmetry, reversor, fixed-point, \
-                          no-density-near, lyapunov, form, invariant-relation, identity, independent or limit";
+                          no-density-near, lyapunov, form, invariant-relation, identity, independent, limit, \
+                          bracket, casimir, jacobi-identity or compatible";
             return Some(Objection { message, remedy });
         }
         // Values at x and at Φ(x) are compared, and the constant of an ∫ is open.

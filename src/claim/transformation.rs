@@ -1,11 +1,13 @@
 //! Maps of phase space: symmetries, reversors, scalings, and maps to other systems.
 
+use num_dual::DualNum;
+
 use super::elsewhere::{one_antiderivative, system_at, written_at};
 use super::images::Transformation;
 use super::statement::open_constant;
 use super::{Condition, Jets, Need, Reader, Statement, difference, quadrature_defects};
 use crate::formula::{Formula, Type};
-use crate::graph::{Expr, record};
+use crate::graph::{Expr, literally, record};
 use crate::mechanics::calculus::DualPoint;
 use crate::mechanics::{Dependence, Meaning, Model, Phase, Variable};
 use crate::scalar::Scalar;
@@ -95,6 +97,13 @@ impl Statement for Symmetry {
 
     fn presence(&self, jet: &DualPoint<'_, Expr>) -> Vec<Expr> {
         system_at(&self.map.point(&jet.phase))
+    }
+
+    /// No time runs where λ is 0.
+    fn written_elsewhere(&self, jet: &DualPoint<'_, Expr>) -> Vec<Expr> {
+        let factors =
+            self.time.iter().flat_map(|own| jet.phase.evaluate_literally(own).components());
+        factors.map(|factor| literally(|| factor.recip())).collect()
     }
 
     fn limit_of_refutation(&self, model: &Model) -> Option<&'static str> {

@@ -10,7 +10,7 @@ use super::model::{Model, ParameterOrigin};
 use super::recipe::{Draw, SamplerSpec};
 use super::{Phase, System};
 use crate::formula::Value;
-use crate::graph::{Expr, has_moduli, literally, record};
+use crate::graph::{Expr, literally, record};
 use crate::number::UnaryFunction;
 use crate::number::rational::Rational;
 use crate::scalar::Scalar;
@@ -92,8 +92,7 @@ impl Model {
 
 impl Phase<'_, Expr> {
     /// Records values that exist where there are equations of motion: one for each choice of listed values
-    /// for which nothing moves, and the rates as written where slopes or masses may have no value, or be 0,
-    /// on an open set of states.
+    /// for which nothing moves, and what the slopes and masses in the rates have no value without.
     pub fn existence_of_motion(&self) -> Vec<Expr> {
         let distance = |choice: &ListedValues| {
             choice.iter().fold(Expr::zero(), |sum, (index, value)| {
@@ -111,9 +110,8 @@ impl Phase<'_, Expr> {
             choices.map(|own| literally(|| distance(own).apply(UnaryFunction::Recip))).collect();
         let formulas = self.model().equations_of_motion().into_iter();
         let written = formulas.flat_map(|formula| self.evaluate_literally(formula).components());
-        if has_moduli(&written.collect::<Vec<Expr>>()) {
-            values.extend(self.motion_as_written());
-        }
+        let written: Vec<Expr> = written.collect();
+        values.extend(self.hidden_in_motion(&written));
         values
     }
 }

@@ -2,7 +2,7 @@
 
 use super::phase::Phase;
 use crate::formula::{Exponents, Formula, Symbol, Value};
-use crate::graph::{Expr, literally, logarithms_times_zero};
+use crate::graph::{Expr, has_moduli, left_out, literally, logarithms_times_zero};
 use crate::scalar::Scalar;
 
 impl<T: Scalar> Phase<'_, T> {
@@ -47,6 +47,19 @@ impl Phase<'_, Expr> {
         }
         let rates = literally(|| self.with(&[], &self.state()).field().to_vec());
         rates.into_iter().filter(|rate| !rate.is_always_defined()).collect()
+    }
+
+    /// Records what equations of motion that are derived from energies have no value without, though neither their
+    /// values nor `written`, the energies, show it: a mass in 0·(1/m).
+    ///
+    /// A determinant of masses may be 0 at all states, though not by its form. A modulus may hide the sign of
+    /// more, so that all that is written is asked then.
+    pub fn hidden_in_motion(&self, written: &[Expr]) -> Vec<Expr> {
+        let motion = self.motion_as_written();
+        match has_moduli(written) {
+            true => motion,
+            false => left_out(&[written, self.field()].concat(), &motion),
+        }
     }
 
     /// Evaluates as written what a formula has no value without, though its value need not show it: the

@@ -28,6 +28,7 @@ impl Judging<'_> {
             pairs.map(|(value, _)| *value).collect()
         };
         let (level, rates) = (kept(&self.common.level), kept(&self.common.level_rates));
+        let is_map = self.case.model.system.is_map();
         let mut of_rates: Option<Option<Certificate>> = None;
         for (item, status) in open.iter_mut() {
             if status.settled.is_some() || status.is_zero {
@@ -36,6 +37,8 @@ impl Judging<'_> {
             let is_of_points = match &item.claim.kind {
                 ClaimKind::Identity(_) => true,
                 ClaimKind::Integral(_) | ClaimKind::Rate(_) => false,
+                // The image of a motion on the level is one.
+                ClaimKind::Symmetry(_) | ClaimKind::Reversor(_) if !is_map => false,
                 _ => continue,
             };
             let is_sound = are_zero(self.graph, &item.context.quadrature_defects)
@@ -59,8 +62,8 @@ impl Judging<'_> {
         Ok(())
     }
 
-    /// Whether the residual of a claim has a value wherever the claim asks for it: what it needs is needed by the
-    /// formulas as they are written, or by the motion.
+    /// Whether the residual of a claim, and what is written elsewhere, have values wherever the claim asks for
+    /// them: what they need is needed by the formulas as they are written, or by the motion.
     fn has_value_where_asked(
         &self,
         sampler: &Sampler,
@@ -68,7 +71,7 @@ impl Judging<'_> {
         is_of_points: bool,
     ) -> bool {
         let mut asked = [&item.requirement[..], &self.common.required_at(sampler.kept())].concat();
-        let mut needed = item.residual.clone();
+        let mut needed = [&item.residual[..], &item.presence].concat();
         if !is_of_points {
             asked.extend(&self.common.field);
             needed.extend(&self.common.level_rates);

@@ -145,7 +145,7 @@ impl Judging<'_> {
 
     /// Returns the message on a condition that fails, or on an essential one that is not known to
     /// hold and without which the claim is not known to.
-    fn failure(
+    pub(super) fn failure(
         &self,
         sampler: &Sampler,
         item: &RecordedClaim<'_>,

@@ -192,6 +192,9 @@ impl Judging<'_> {
         let residuals = values.range(span.residual.clone());
         let away = residuals.iter().find(|value| Mixed::excludes_zero(value, 0));
         if let Some((mid, rad)) = away.and_then(|value| Mixed::enclosure(value, 0)) {
+            if self.is_lone_at(item, sampler, numbers, bits) {
+                return AtNumbers::NoState;
+            }
             let digits = away.and_then(|value| Mixed::beyond_f64(value, 0));
             let printed = sampler.printed_from(numbers, bits);
             let witness = witness::witness(self.case, None, &printed, (mid, rad));

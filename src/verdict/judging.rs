@@ -221,11 +221,12 @@ impl Judging<'_> {
 
     /// Returns a warning on drawn states at which the equations of motion have no value, as a mass is 0 there.
     fn states_without_motion(&self, states: &[Balls<TAPE_LANES>]) -> Option<String> {
-        let written = self.common.motion.get(self.case.model.undetermined.len()..)?;
+        let hidden = self.common.motion.get(self.case.model.undetermined.len()..)?;
+        let written = [hidden, &self.common.requirement].concat();
         if written.is_empty() {
             return None;
         }
-        let values = self.run(written).at(&Ball::<TAPE_LANES>, states);
+        let values = self.run(&written).at(&Ball::<TAPE_LANES>, states);
         let is_state = |lane: &usize| states.iter().all(|block| block.is_defined(*lane));
         let moves = |lane: &usize| (0..written.len()).all(|k| values.output(k).is_defined(*lane));
         let all = (0..TAPE_LANES).filter(is_state).count();

@@ -34,17 +34,25 @@ const PRECISION: u32 = 256;
 const ANTIDERIVATIVE: f64 = 0.5;
 
 impl Judging<'_> {
-    /// Finds a state, as text, near which one of these values jumps.
+    /// Finds a state, as text, near which one of these values jumps for some listed values.
     ///
     /// `None` if no jump was met on the lines that were tried.
     pub(super) fn jump(&self, sampler: &Sampler, values: &[Expr]) -> Result<Option<String>, Fault> {
         let Some(digits) = may_jump(self.graph, values) else { return Ok(None) };
-        let Some(fixed) = combinations(sampler.recipes()).and_then(|all| all.into_iter().next())
-        else {
-            return Ok(None);
-        };
-        let (graph, groups) = sampler.compose(self.graph, &[values.to_vec()], &fixed)?;
-        Ok(self.jump_of(sampler, &graph, &groups.concat(), digits))
+        let Some(choices) = combinations(sampler.recipes()) else { return Ok(None) };
+        for fixed in choices {
+            let (graph, groups) = sampler.compose(self.graph, &[values.to_vec()], &fixed)?;
+            let groups = groups.concat();
+            // What jumps for other values alone may be a constant for these.
+            let found = match may_jump(&graph, &groups) {
+                Some(_) => self.jump_of(sampler, &graph, &groups, digits),
+                None => None,
+            };
+            if found.is_some() {
+                return Ok(found);
+            }
+        }
+        Ok(None)
     }
 
     /// Finds a state near which a value jumps that is a function of the draws.

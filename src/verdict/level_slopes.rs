@@ -84,7 +84,9 @@ impl Judging<'_> {
                 found.push(FlatEquation { index, is_lost: true, near: None });
                 continue;
             }
-            if rank_of(kept.len())? == CellRank::Full {
+            if self.are_independent_one_by_one(&chosen, &kept)?
+                || rank_of(kept.len())? == CellRank::Full
+            {
                 continue;
             }
             for (before, index) in kept.iter().enumerate() {
@@ -97,6 +99,47 @@ impl Judging<'_> {
             }
         }
         Ok(found)
+    }
+
+    /// Whether the slopes are independent by their zeros: one after another has slopes by variables of which those
+    /// left have none, and these are not all 0. So have the links of a chain, from its end.
+    ///
+    /// A determinant of few rows is faster.
+    fn are_independent_one_by_one(&self, sampler: &Sampler, kept: &[usize]) -> Result<bool, Fault> {
+        const FEW: usize = 3;
+        if kept.len() <= FEW {
+            return Ok(false);
+        }
+        let slopes = &self.common.slopes;
+        let is_zero =
+            |slope: &Expr| self.graph.constant_value(*slope).is_some_and(Rational::is_zero);
+        let mut left = kept.to_vec();
+        while !left.is_empty() {
+            let own_slopes = |index: &usize| -> Vec<Expr> {
+                let is_own = |column: &usize| {
+                    left.iter().all(|other| other == index || is_zero(&slopes[*other][*column]))
+                };
+                let columns = (0..slopes[*index].len()).filter(is_own);
+                let own = columns.map(|column| slopes[*index][column]);
+                own.filter(|slope| !is_zero(slope)).collect()
+            };
+            let mut next = None;
+            for (place, index) in left.iter().enumerate() {
+                let own = own_slopes(index);
+                if own.is_empty() {
+                    continue;
+                }
+                if self.rank_on_cells(sampler, (&[own], 1), &[], RankQuestion::Known)?
+                    == CellRank::Full
+                {
+                    next = Some(place);
+                    break;
+                }
+            }
+            let Some(place) = next else { return Ok(false) };
+            left.remove(place);
+        }
+        Ok(true)
     }
 
     /// Finds an equation whose slope has no value at any of the states, as that of |x − 1| = 0.

@@ -4,7 +4,7 @@ use super::claim_state::ClaimState;
 use super::evidence::Verdict;
 use super::judging::Judging;
 use super::ladder::LADDER_BITS;
-use super::missing::neighbours;
+use super::missing::{around, neighbours};
 use super::recorded::{OutputLayout, RecordedClaim};
 use super::run::Run;
 use super::sampler::{Sampler, TAPE_LANES};
@@ -12,6 +12,7 @@ use crate::graph::{Expr, Fault, Step};
 use crate::number::Enclosing;
 use crate::number::ball::Ball;
 use crate::number::mixed::Mixed;
+use crate::number::rational::Rational;
 use crate::number::{BinaryOperation, UnaryFunction};
 
 impl Judging<'_> {
@@ -54,6 +55,32 @@ impl Judging<'_> {
         }
         let (run, layout) = self.lay_out(sampler, std::iter::once(item), false);
         Ok(!self.has_neighbour(sampler, index, &run, &layout))
+    }
+
+    /// Whether a state made from given draws does not count, since the claim has no value at the states around.
+    pub(super) fn is_lone_at(
+        &self,
+        item: &RecordedClaim<'_>,
+        sampler: &Sampler,
+        numbers: &[Rational],
+        bits: u32,
+    ) -> bool {
+        let edges = self.edges_of(item, sampler);
+        if edges.is_empty() {
+            return false;
+        }
+        let domain = Mixed::new(bits);
+        let at = |numbers: &[Rational]| sampler.made_from(&domain, numbers);
+        let values = self.run(&edges).at(&domain, &at(numbers));
+        // Where no radicand is 0 the states around have values as well.
+        if (0..edges.len()).all(|k| Mixed::excludes_zero(values.output(k), 0)) {
+            return false;
+        }
+        let (run, layout) = self.lay_out(sampler, std::iter::once(item), false);
+        let has_value = |numbers: &Vec<Rational>| {
+            layout.existing(&run.at(&domain, &at(numbers)), &layout.spans[0])[0]
+        };
+        !around(sampler, numbers).iter().any(has_value)
     }
 
     /// Values that end at 0 what has a value: the arguments of roots, logarithms and broken powers.

@@ -20,31 +20,45 @@ use crate::number::rational::Rational;
 const MOST_MISSING: usize = 16;
 /// Number of steps through a range, of which states beside another are a few away.
 const NEAR: i64 = 1 << 30;
+/// Prime modulo which the directions to neighbours are made, and a factor for each of them.
+const MODULUS: i64 = 997;
+const FACTORS: [i64; 3] = [463, 719, 251];
 /// Share of doubtful states above which a claim is not confirmed: one in this many.
 const MAX_DOUBTFUL: usize = 4;
 
-/// Lists draws of two states near a drawn one, on opposite sides of it, in the ranges; none if a draw is not
-/// exact.
+/// Lists draws of states near a drawn one; none if a draw is not exact.
 pub(super) fn neighbours(sampler: &Sampler, index: u64) -> Vec<Vec<Rational>> {
-    let exact = sampler.drawn(&Mixed::new(LADDER_BITS[0]), 1, index);
-    let on_side = |side: i64| {
-        let moved = |(k, (value, draw)): (usize, (&Number, &Draw))| {
-            let Number::Exact(value) = value else { return None };
-            let step = Rational::new(side * (k as i64 % 7 + 1), NEAR);
+    let drawn = sampler.drawn(&Mixed::new(LADDER_BITS[0]), 1, index).into_iter();
+    let exact = drawn.map(|value| match value {
+        Number::Exact(value) => Some(value),
+        Number::Ball(_) | Number::Nothing | Number::Doubtful => None,
+    });
+    exact.collect::<Option<Vec<Rational>>>().map_or_else(Vec::new, |own| around(sampler, &own))
+}
+
+/// Lists draws on opposite sides of given ones in several directions, in the ranges.
+pub(super) fn around(sampler: &Sampler, numbers: &[Rational]) -> Vec<Vec<Rational>> {
+    let on_side = |(factor, side): (i64, i64)| {
+        let moved = |(k, (value, draw)): (usize, (&Rational, &Draw))| {
+            // No plane with short coefficients contains all directions.
+            let place = k as i64 % MODULUS + 1;
+            let share = (place * place * place + factor * place) % MODULUS + 1;
+            let step = Rational::new(side * share, NEAR * MODULUS);
             match draw {
                 Draw::Within(range) => {
                     let away = &step * &(&range.high - &range.low);
                     let moved = value + &away;
                     let is_inside = moved >= range.low && moved <= range.high;
-                    Some(if is_inside { moved } else { value - &away })
+                    if is_inside { moved } else { value - &away }
                 }
-                Draw::Of(..) => Some(value + &step),
-                Draw::OneOf(_) | Draw::Sign => Some(value.clone()),
+                Draw::Of(..) => value + &step,
+                Draw::OneOf(_) | Draw::Sign => value.clone(),
             }
         };
-        exact.iter().zip(sampler.recipes()).enumerate().map(moved).collect()
+        numbers.iter().zip(sampler.recipes()).enumerate().map(moved).collect()
     };
-    [1, -1].into_iter().filter_map(on_side).collect()
+    let sides = FACTORS.into_iter().flat_map(|factor| [(factor, 1), (factor, -1)]);
+    sides.map(on_side).collect()
 }
 
 impl Judging<'_> {

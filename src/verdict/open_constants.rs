@@ -36,10 +36,16 @@ impl Judging<'_> {
                     && (self.is_multiple(*residual, constant)?
                         || self.is_independent_of(*residual, constant, &sampler)?);
             }
-            // Without an ∫ it is as it is, and it has to be one that does not vanish.
-            let values = self.run(&[*residual]).at(&Ball::<TAPE_LANES>, &states);
+            // Without an ∫ it is as it is, and it has to be one that does not vanish at a state that counts.
+            let mut outputs = vec![*residual];
+            outputs.extend(item.requirement.iter().chain(&item.presence));
+            outputs.extend(self.common.required_at(sampler.kept()));
+            let values = self.run(&outputs).at(&Ball::<TAPE_LANES>, &states);
+            let counts =
+                |lane: usize| (0..outputs.len()).all(|place| values.output(place).is_defined(lane));
             let value = values.output(0);
-            if is_multiple && (0..TAPE_LANES).any(|lane| value.excludes_zero(lane)) {
+            if is_multiple && (0..TAPE_LANES).any(|lane| value.excludes_zero(lane) && counts(lane))
+            {
                 return Ok(false);
             }
         }

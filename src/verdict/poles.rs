@@ -32,8 +32,6 @@ const MIDWAY: f64 = 1e-4;
 const MARGIN: f64 = 0.03;
 /// Largest coordinate of a state at a pole, and of its draws, where others are of order 1.
 const FARTHEST: f64 = 1e3;
-/// Largest number of choices of listed values that are examined.
-const MOST_CHOICES: usize = 8;
 /// Largest number of divisors that are examined.
 const MOST_DIVISORS: usize = 8;
 /// Number of pieces of the ranges in which a divisor is shown not to vanish.
@@ -60,7 +58,7 @@ impl Judging<'_> {
         let model = &self.case.model;
         let level = LevelSubset::level(model);
         let mut on_level = None;
-        for (index, fixed) in choices.iter().take(MOST_CHOICES).enumerate() {
+        for (index, fixed) in choices.iter().enumerate() {
             let Some(found) = self.vanishing(sampler, &groups, fixed)? else { continue };
             let place = if sampler.kept() == level.kept.as_slice() {
                 self.pole_of(sampler, fixed, &found)

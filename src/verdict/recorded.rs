@@ -84,7 +84,7 @@ impl<'c> RecordedClaim<'c> {
 pub struct SharedTerms {
     pub field: Vec<Expr>,
     /// Formulas of the system as written: without their values there is no state.
-    requirement: Vec<Expr>,
+    pub requirement: Vec<Expr>,
     /// Values that exist for the listed values for which the equations of motion have one.
     pub motion: Vec<Expr>,
     /// Formulas of the level functions as written, by equation.

@@ -18,9 +18,9 @@ use super::judging::Judging;
 use super::preimages::SecondState;
 use super::recorded::{RecordedClaim, Wider};
 use super::run::{Doubles, Values};
-use super::sampler::TAPE_LANES;
+use super::sampler::{Sampler, TAPE_LANES};
 use crate::claim::{LevelSubset, Need};
-use crate::graph::{Expr, Step};
+use crate::graph::{Expr, Fault, Step};
 use crate::number::UnaryFunction;
 use crate::number::ball::Ball;
 
@@ -122,6 +122,13 @@ impl Judging<'_> {
         if candidates.iter().any(asks) && !self.is_one_to_one(&sampler, SecondState::InRanges)? {
             candidates.retain(|own| !asks(own));
         }
+        let mut kept = Vec::new();
+        for own in candidates {
+            if self.meets_conditions(&sampler, &own)? {
+                kept.push(own);
+            }
+        }
+        let candidates = kept;
         let values = self.run(&outputs).at(&Ball::<TAPE_LANES>, &sampler.balls(0));
         let all = values.existing(std::slice::from_ref(&common));
         if BlockResult::at::<Doubles>(&values.range(rates), None, &all).excludes_zero() {
@@ -150,6 +157,29 @@ impl Judging<'_> {
             self.conclude_at(place, asked, answer);
         }
         Ok(())
+    }
+
+    /// Whether what a claim presupposes is known at a wider place as far as at its own: z − 2 + |z − 2| is not 0
+    /// on z = 3, and is for z < 2.
+    fn meets_conditions(&self, sampler: &Sampler, own: &Candidate<'_, '_>) -> Result<bool, Fault> {
+        let is_asked = |need: &Need| {
+            matches!(
+                need,
+                Need::Rank { .. }
+                    | Need::NotZero { .. }
+                    | Need::Nonzero { .. }
+                    | Need::Zeros { .. }
+            )
+        };
+        for condition in own.item.conditions.iter().filter(|condition| is_asked(&condition.need)) {
+            if let Some(failure) = self.failure(sampler, own.item, condition)? {
+                let remark = own.status.evidence.remark.as_deref();
+                if condition.is_essential || !remark.is_some_and(|own| own.contains(&failure)) {
+                    return Ok(false);
+                }
+            }
+        }
+        Ok(true)
     }
 
     /// Adds a wider place to those where a claim holds, if it does.
@@ -205,7 +235,8 @@ impl Judging<'_> {
     /// So it is if the wider place is all of space, the residual is the same, and all that counts
     /// has a value on an open set, where it is continuous. √(z x²) has one for z < 0 on the slice
     /// x = 0 alone, which no state of space comes near. What the residual needs elsewhere, as ε/(ε + x²) at ε = 0,
-    /// may have a value at almost every state of space, and at none of a part of the level.
+    /// may have a value at almost every state of space, and at none of a part of the level, unless the states that
+    /// count need it, too: a reversor of mechanics divides by the same masses.
     fn is_continued(&self, place: &LevelSubset, item: &RecordedClaim<'_>, wider: &Wider) -> bool {
         let is_space = place.kept.iter().all(|kept| !kept);
         let required = self.common.required_at(&item.claim.place.kept);
@@ -219,7 +250,8 @@ impl Judging<'_> {
         is_space
             && wider.residual == item.residual
             && !item.claim.kind.is_negated()
-            && (item.presence.is_empty() || self.is_total(item, wider))
+            && (self.graph.left_out(&required, &item.presence).is_empty()
+                || self.is_total(item, wider))
             && !self.graph.steps().zip(reached).any(|(step, reached)| reached && is_root(step))
     }
 }

@@ -49,6 +49,39 @@ fn what_follows_from_closed_rods_is_proved() {
     assert_eq!(found, [Verdict::Proved, Verdict::Proved, Verdict::Refuted]);
 }
 
+#[test]
+fn chains_keep_their_energy_for_any_number_of_links() {
+    let n = 5;
+    let links = (2..=n).map(|i| format!(", \"|q[{i}] − q[{}]|² = 1\"", i - 1)).collect::<String>();
+    let text = format!(
+        "system = \"nonholonomic\"\n[state]\nq = \"matrix({n}, 2, -1..1)\"\n\"q'\" = \"matrix({n}, 2, -1..1)\"\n\
+         [lagrangian]\nkinetic = \"sum(i, 1..{n}, (q'[i],q'[i]))/2\"\npotential = \"sum(i, 1..{n}, q[i,2])\"\n\
+         constraints = [\"(q[1],q[1]) = 1\"{links}]\n"
+    );
+    let found = judged(&with_claims(&text, &["integral = \"energy\"", "integral = \"q'[1,1]\""]));
+    assert_eq!(found, [Verdict::Proved, Verdict::Refuted]);
+}
+
+#[test]
+fn reversors_of_linkages_are_proved_without_states() {
+    let text = |kinetic: &str| {
+        format!(
+            "system = \"nonholonomic\"\n[state]\np = \"vector(2, -1..1)\"\nq = \"vector(2, -1..3)\"\n\
+             \"p'\" = \"vector(2, -1..1)\"\n\"q'\" = \"vector(2, -1..1)\"\n\
+             [lagrangian]\nkinetic = \"{kinetic}\"\npotential = \"p2 + q2\"\n\
+             constraints = [\"(p,p) = 1\", \"|q − p|² = 4\", \"|q − [5/4, 0]|² = 9/4\"]\n"
+        )
+    };
+    let back = "reversor = { p' = \"-p'\", q' = \"-q'\" }".replace("p' =", "\"p'\" =");
+    let back = back.replace("q' =", "\"q'\" =");
+    let claims = [back.as_str(), "symmetry = { p2 = \"-p2\", q2 = \"-q2\" }"];
+    let found = judged(&with_claims(&text("((p',p') + (q',q'))/2"), &claims));
+    assert_eq!(found, [Verdict::Proved, Verdict::Refuted]);
+    // A force linear in the velocities is not reversible.
+    let found = judged(&with_claims(&text("((p',p') + (q',q'))/2 + q2²*p1'"), &claims[..1]));
+    assert_eq!(found, [Verdict::Refuted]);
+}
+
 /// A level that is found numerically, that of eˣ + x + eʸ + y, with a motion along it.
 fn curve(field: &str) -> String {
     format!(

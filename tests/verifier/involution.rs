@@ -228,3 +228,23 @@ fn the_dimension_of_tori_is_that_of_the_place() {
         assert!(remark.contains("torus of dimension 2"), "{remark}");
     }
 }
+
+#[test]
+fn lagrangians_need_as_many_functions_wherever_the_claim_is_made() {
+    let text = |potential: &str, claim: &str, place: &str| {
+        format!(
+            "title = 'two degrees of freedom'\n[state]\nx = '-1..1'\ny = '-1..1'\n\"x'\" = '-1..1'\n\"y'\" = '-1..1'\n\
+             [lagrangian]\nkinetic = \"(x'^2 + y'^2)/2\"\npotential = '{potential}'\n\
+             [[claim]]\ninvolution = [{claim}]\ntheorem = 'Liouville'\n{place}"
+        )
+    };
+    let chaotic = "(x² + y²)/2 + x²*y - y³/3";
+    for place in ["", "where = 'everywhere'", "where = 'level'"] {
+        let error = Case::parse(&text(chaotic, "'energy'", place), &[]).expect_err("one function");
+        assert!(error.to_string().contains("cannot hold with 1 function"), "{place}: {error}");
+        let case = text("x² + 3*y^4", "'energy', \"x'^2/2 + x²\"", place);
+        let case = Case::parse(&case, &[]).unwrap_or_else(|error| panic!("{place}: {error}"));
+        let report = judge(&case, &Options::default()).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(report.claims[0].verdict, Proved, "{place}: {:?}", report.claims[0].evidence);
+    }
+}

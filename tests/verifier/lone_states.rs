@@ -20,13 +20,16 @@ fn a_state_alone_refutes_nothing() {
         "abs(y) + sqrt(y*(x + 0.195)²) + 2*sin(π/6) = y + sqrt(y*(x + 0.195)²) + 1",
         "abs(y) + sqrt(y*(x + 0.5)²) + 2*sin(π/6) = y + sqrt(y*(x + 0.5)²) + 1",
         "abs(y) + sqrt(y*x²) + 2*sin(π/6) = y + sqrt(y*x²) + 1",
+        "abs(y) + sqrt(y*(2*x - y - 0.449)²) + 2*sin(π/6) = y + sqrt(y*(2*x - y - 0.449)²) + 1",
     ] {
         for seed in 1..60 {
             assert_ne!(verdict(claim, seed), Verdict::Refuted, "{claim} with the seed {seed}");
         }
     }
     for seed in 1..60 {
-        assert_eq!(verdict("sqrt(-(x + 0.195)²) = 1", seed), Verdict::Undecided, "no state counts");
+        for claim in ["sqrt(-(x + 0.195)²) = 1", "sqrt(-(2*x - y - 0.449)²) = 1"] {
+            assert_eq!(verdict(claim, seed), Verdict::Undecided, "no state of {claim} counts");
+        }
     }
 }
 

@@ -103,3 +103,53 @@ fn definite_masses_are_eliminated_as_before() {
         assert!(is_indefinite(kinetic, ranges), "{kinetic} for m in {ranges}");
     }
 }
+
+#[test]
+fn masses_that_vanish_though_not_by_their_form_leave_no_equations_of_motion() {
+    use Verdict::Proved;
+    let claims = ["integral = \"x'\"", "rate = \"x'\"\nequals = '0'"];
+    let of = |parameters: &str, state: &[&str], kinetic: &str| {
+        verdicts(parameters, state, &format!("kinetic = \"{kinetic}\""), &claims)
+    };
+    let ranges = "a = '1..2'\nb = '1..2'\nc = '1..2'";
+    for kinetic in [
+        "(a*(x' - y')² + b*(y' - z')² + c*(z' - x')²)/2",
+        "(a*x' + b*y')²/2 + z'²/2",
+        "(a*x' + b*y' + c*z')²/2",
+    ] {
+        assert_eq!(of(ranges, &SPACE, kinetic), None, "{kinetic}");
+    }
+    // With a mass of its own for one of them there are accelerations.
+    let regular = of(ranges, &SPACE, "(a*(x' - y')² + b*(y' - z')² + c*(z' - x')²)/2 + x'²/2");
+    assert!(regular.is_some_and(|found| found[1] == Proved), "regular");
+    let line = ["x", "x'"];
+    for mass in ["(k + 1)² - k² - 2*k - 1", "2*sin(π/6) - 1"] {
+        assert_eq!(of("k = '1..2'", &line, &format!("({mass})*x'²/2")), None, "{mass}");
+    }
+    assert_eq!(of("k = '1..2'", &line, "(k + 1)²*x'²/2"), Some(vec![Proved; 2]));
+}
+
+#[test]
+fn nothing_rests_where_a_mass_is_0() {
+    use Verdict::{Proved, Undecided};
+    let kinetic = "kinetic = \"x'²/2 + y'²/2 + cos(x - y)*x'*y'\"";
+    let rests = [
+        "fixed-point = { x = '0', y = 'pi' }",
+        "fixed-point = { x = 'pi/3', y = '-2*pi/3' }",
+        "fixed-point = { x = '0', y = 'pi/2' }",
+    ];
+    let found = verdicts("", &PLANE, kinetic, &rests);
+    assert_eq!(found, Some(vec![Undecided, Undecided, Proved]), "the determinant is sin²(x − y)");
+    let kinetic = "kinetic = \"(x - a² - 2*a*b - b²)*x'²/2\"";
+    let rests = ["fixed-point = { x = '(a + b)²' }", "fixed-point = { x = '(a + b)² + 1' }"];
+    let found = verdicts("a = '1..2'\nb = '1..2'", &["x", "x'"], kinetic, &rests);
+    assert_eq!(found, Some(vec![Undecided, Proved]));
+    let kinetic = "kinetic = \"(x - y)*x'²/2 + y'²/2\"";
+    let claim = |x: &str| {
+        format!("symmetry = {{ x = '{x}', y = 'c', \"x'\" = \"0*x'\", \"y'\" = \"0*y'\" }}")
+    };
+    let images = [claim("(c³ + c)/(c² + 1)"), claim("c")];
+    let images: Vec<&str> = images.iter().map(String::as_str).collect();
+    let found = verdicts("c = '1..2'", &PLANE, kinetic, &images);
+    assert_eq!(found, Some(vec![Undecided; 2]), "no motion at the image");
+}

@@ -43,3 +43,14 @@ fn what_holds_for_no_constant_is_refuted() {
         assert_eq!(verdict(RUNNING, &claim), Verdict::Refuted, "{claim}");
     }
 }
+
+#[test]
+fn states_without_a_value_refute_nothing_of_an_open_constant() {
+    // For the constant 0 the second part holds; the first does where √y has a value.
+    let claim = |first: &str| {
+        format!("rate = ['{first}', 'x*∫(0,x)']\nequals = ['{first} + x*(abs(y) - y)', 'y*∫(0,x)']")
+    };
+    let plane = "[state]\nx = '-1..1'\ny = '-1..1'\n[field]\n\"x'\" = '0'\n\"y'\" = '0'\n";
+    assert_eq!(verdict(plane, &claim("0*log(y)")), Verdict::Undecided);
+    assert_eq!(verdict(plane, &claim("0*x")), Verdict::Refuted, "|y| is not y for y < 0");
+}

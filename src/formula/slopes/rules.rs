@@ -41,6 +41,7 @@ impl Slopes<'_, '_> {
             Dot(a, b) => self.bilinear(a, b, |own, a, b| Ok(own.push(Dot(a, b), kind))),
             Divide(a, b) => self.quotient(node, a, b),
             Power(a, exponent) => {
+                let (a, exponent) = self.without_norm(a, exponent);
                 let Some(slope) = self.of(a)? else { return Ok(None) };
                 let lower = self.power(a, &(&exponent - &Rational::from(1)))?;
                 let factor = self.number(exponent).node;
@@ -116,6 +117,20 @@ impl Slopes<'_, '_> {
             None => None,
         };
         self.sum(left, right)
+    }
+
+    /// Base and exponent of a power without a root: those of (v,v)^(n/2) for |v|ⁿ with even n, and of xⁿ for |x|ⁿ,
+    /// which have slopes at 0.
+    fn without_norm(&self, base: NodeId, exponent: Rational) -> (NodeId, Rational) {
+        if exponent.to_integer().is_none_or(|exponent| exponent % 2 != 0) {
+            return (base, exponent);
+        }
+        let arena = &self.builder.arena;
+        match (&arena.nodes[base].operation, arena.squared_norm(base)) {
+            (NodeOperation::Function(ElementaryFunction::Modulus, x), _) => (*x, exponent),
+            (_, Some(square)) => (square, &exponent * &Rational::new(1, 2)),
+            _ => (base, exponent),
+        }
     }
 
     /// (a/b)' = (a' − (a/b) b')/b.

@@ -172,6 +172,8 @@ fn gradients_and_jacobians() {
     close(&scope.components(&gamma), &scope.components(&expected), "of a dot product");
     let unit = scope.read("∂|γ|/∂γ");
     close(&scope.components(&unit), &scope.components(&scope.read("γ/|γ|")), "of a norm");
+    let even = scope.components(&scope.read("∂(|γ − γ|² + |x − x|^4)/∂x"));
+    assert_eq!(even, [0.0], "even powers of norms are smooth where these are 0");
     let power = scope.read("∂(x*y)/∂x²");
     let y = scalar_of("y");
     assert_eq!(scope.components(&power), [y * y], "the power of the derivative");

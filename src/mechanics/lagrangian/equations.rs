@@ -171,8 +171,10 @@ impl Lagrangian {
             Algebra::Commuting => {}
             Algebra::Rotations(first) => {
                 let w = &at.components()[first..first + 3];
-                let start = self.velocities(&at.model.state).iter().position(|c| *c == first);
-                let start = start.unwrap_or(0);
+                let velocities = self.velocities(&at.model.state);
+                let Some(start) = velocities.iter().position(|own| *own == first) else {
+                    return vec![T::undefined(); momenta.len()];
+                };
                 for k in 0..3 {
                     let (i, j) = ((k + 1) % 3, (k + 2) % 3);
                     let (p, q) = (momenta[start + i], momenta[start + j]);

@@ -83,7 +83,7 @@ pub fn theorem_about(
     Ok(theorem(&found, changes, stability(&found), &[]))
 }
 
-/// Compares an orbit with the claim.
+/// Compares the orbit that was found with the claim, which is about it: another may lie next to it.
 fn weigh(claim: &ClosedOrbit, found: &ProvedOrbit, judgement: &mut MotionJudgement) {
     let shift = (found.period.mid - claim.period.value).abs() / claim.period.value;
     if !(found.moved <= NEAR && shift <= NEAR) {
@@ -105,7 +105,8 @@ fn weigh(claim: &ClosedOrbit, found: &ProvedOrbit, judgement: &mut MotionJudgeme
                 let share = Enclosure::exact(*turns as f64).recip();
                 let least = printed(found.period * share);
                 judgement.refute(format!(
-                    "the orbit is run through {turns} times in it, and its least period is {least}"
+                    "the orbit found from the start is run through {turns} times in it, and has the least \
+                     period {least}"
                 ));
             }
             Err(doubt) => {
@@ -120,10 +121,10 @@ fn weigh(claim: &ClosedOrbit, found: &ProvedOrbit, judgement: &mut MotionJudgeme
     }
     match claim.divergence {
         Some(Change::Negative) if found.volume.is_positive() => {
-            judgement.refute("along the orbit volume grows".to_string());
+            judgement.refute("along the orbit found from the start volume grows".to_string());
         }
         Some(Change::Positive) if negative => {
-            judgement.refute("along the orbit volume shrinks".to_string());
+            judgement.refute("along the orbit found from the start volume shrinks".to_string());
         }
         _ => {}
     }
@@ -134,7 +135,11 @@ fn weigh(claim: &ClosedOrbit, found: &ProvedOrbit, judgement: &mut MotionJudgeme
         }
         match seen {
             Some(seen) if seen == claimed => {}
-            Some(seen) => judgement.refute(format!("the orbit is of another kind: {}", name(seen))),
+            Some(seen) => {
+                let seen = name(seen);
+                judgement
+                    .refute(format!("the orbit found from the start is of another kind: {seen}"));
+            }
             None => {
                 judgement.leave_open("its stability is not proved by the enclosures".to_string())
             }
@@ -179,7 +184,8 @@ pub(super) fn compare_period(stated: &Stated, period: Enclosure, judgement: &mut
     let gap = (period.mid - stated.value).abs();
     let is_inside = gap + period.rad + rounding <= stated.unit;
     if gap > stated.unit + period.rad + rounding {
-        judgement.refute(format!("the period is not {}", stated.text));
+        judgement
+            .refute(format!("the period of the orbit found from the start is not {}", stated.text));
     } else if stated.unit == 0.0 {
         let reason = "an enclosure does not prove that the period is exactly";
         judgement.leave_open(format!("{reason} {}: write a decimal", stated.text));

@@ -44,7 +44,7 @@ pub use expr::Expr;
 use index::Index;
 pub use merge::{Choice, Member};
 pub use points::Points;
-pub use presence::{Need, edges, has_moduli, logarithms_times_zero};
+pub use presence::{Need, edges, has_moduli, left_out, logarithms_times_zero};
 use recording::with_graph;
 pub use recording::{is_recorded_literally, literally, record, record_further};
 pub use size::squares_of_terms;

@@ -91,6 +91,12 @@ impl Graph {
     }
 }
 
+/// Returns the operations without a value at some arguments that values of the recording under way contain, and
+/// others do not.
+pub fn left_out(kept: &[Expr], written: &[Expr]) -> Vec<Expr> {
+    with_graph(|graph| graph.left_out(kept, written))
+}
+
 /// Returns the inverses of the arguments of all roots and fractional powers in some values, recorded
 /// literally: where one of them has no value, what was written is at the end of its domain.
 pub fn edges(values: &[Expr]) -> Vec<Expr> {

@@ -62,7 +62,7 @@ fn one_window_is_enough_for_both_rectangles_on_the_saddles_surface() {
     statement["case"]["text"] = text.into();
     statement["claim"]["formula"] = other(&statement["claim"]["formula"]).into();
     let refusal = verified(&sealed(statement, whole["proof"].clone())).expect_err("another period");
-    assert!(refusal.contains("the period is not 7.8640"), "{refusal}");
+    assert!(refusal.contains("is not 7.8640"), "{refusal}");
 }
 
 /// The last set of the short loop, which covers the first set.
