@@ -101,7 +101,6 @@ mod tangents;
 mod taylor;
 mod turned;
 mod unbound;
-mod univariate;
 mod weighted;
 
 use liouville::case::Case;
