@@ -3,7 +3,7 @@
 use super::elsewhere::{one_antiderivative, system_at, written_at};
 use super::images::Transformation;
 use super::statement::open_constant;
-use super::{Condition, Jets, Need, Reader, Statement, difference, quadrature_defects};
+use super::{Condition, Jets, Need, Reader, Statement, ValueShape, difference, quadrature_defects};
 use crate::formula::{Formula, Type};
 use crate::graph::{Expr, record};
 use crate::mechanics::calculus::DualPoint;
@@ -55,6 +55,7 @@ fn vanishes(model: &Model, formula: &Formula) -> bool {
 impl Statement for Symmetry {
     const NAME: &'static str = "symmetry";
     const COMPANIONS: &'static [&'static str] = &["time"];
+    const SHAPES: &'static [(&'static str, ValueShape)] = &[(Self::NAME, ValueShape::Table)];
     const JETS: Jets = Jets::TwoPoints;
     const OF_MAPS: bool = true;
 
@@ -151,6 +152,7 @@ impl Statement for Symmetry {
 
 impl Statement for Reversor {
     const NAME: &'static str = "reversor";
+    const SHAPES: &'static [(&'static str, ValueShape)] = &[(Self::NAME, ValueShape::Table)];
     const JETS: Jets = Jets::TwoPoints;
     const OF_MAPS: bool = true;
 
@@ -223,6 +225,8 @@ impl Statement for Reversor {
 impl Statement for Map {
     const NAME: &'static str = "map";
     const COMPANIONS: &'static [&'static str] = &["field", "multiplier"];
+    const SHAPES: &'static [(&'static str, ValueShape)] =
+        &[(Self::NAME, ValueShape::Table), ("field", ValueShape::Table)];
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
         let model = from.model();
