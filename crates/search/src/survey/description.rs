@@ -359,7 +359,7 @@ mod tests {
         let text = "title = 't'\n[state]\nx = '-1..1'\ny = '-1..1'\n[field]\n\"x'\" = 'y'\n\"y'\" = '−x'\n";
         let own = Description::of(&Case::parse(text, &[]).expect("a case"));
         assert_eq!(own.equations, ["x' = y", "y' = −x"]);
-        let text = "title = 't'\n[state]\nx = '-1..1'\np = '-1..1'\n[hamiltonian]\nH = 'p^2'\npairs = ['x, p']\n";
+        let text = "title = 't'\n[state]\nx = '-1..1'\np = '-1..1'\n[hamiltonian]\nfunction = 'p^2'\npairs = [['x', 'p']]\n";
         let own = Description::of(&Case::parse(text, &[]).expect("a case"));
         assert_eq!(own.functions, ["H = p^2", "{x,p} = 1"]);
         let text = "title = 't'\n[state]\nq = 'vector(2, -1..1)'\nw = 'vector(2, -1..1)'\n[field]\n\
