@@ -339,8 +339,7 @@ fn read_chart(root: &CaseTable<'_>, parts: &mut ModelParts) {
         }
         return;
     };
-    let is_own =
-        matches!(parts.model.system, System::Field(_) | System::Hamiltonian(_) | System::Map(_));
+    let is_own = parts.model.system.is_given_by_formulas();
     if !is_lagrangian && !is_own {
         root.mistakes().add(Mistake::at(
             section.span.clone(),

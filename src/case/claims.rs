@@ -4,9 +4,9 @@ use super::entries::{Entries, other, place_of};
 use super::error::{Mistake, Problem};
 use super::section::CaseTable;
 use super::{Expect, MotionClaim, PlacedClaim, SectionPlan, TABLE_ROWS};
-use crate::claim::absence::ABSENCES;
+use crate::claim::absence::{ABSENCES, Absence};
 use crate::claim::motion::{Beginning, MOTIONS, MotionKind};
-use crate::claim::{ClaimKind, LevelSubset, Reader, STATEMENTS};
+use crate::claim::{ClaimKind, LevelSubset, Reader, STATEMENTS, ValueShape};
 use crate::mechanics::Model;
 
 /// Keys common to all claims.
@@ -15,14 +15,31 @@ const COMMON: [&str; 6] = ["name", "source", "where", "expect", "cell", "note"];
 /// Keys common to all claims about motion.
 const COMMON_OF_MOTIONS: [&str; 4] = ["name", "source", "expect", "note"];
 
-/// Keys of a claim: each statement, with the keys that may stand beside it.
-pub fn claim_keys() -> Vec<(&'static str, Vec<&'static str>)> {
-    let stated =
-        STATEMENTS.iter().map(|key| (*key, [&COMMON, ClaimKind::companions(key)].concat()));
-    let motions = MOTIONS.iter();
-    let motions =
-        motions.map(|key| (*key, [&COMMON_OF_MOTIONS, MotionKind::companions(key)].concat()));
-    let absences = ABSENCES.iter().map(|key| (*key, COMMON.to_vec()));
+/// A key with the shape of its value.
+pub type ShapedKey = (&'static str, ValueShape);
+
+/// Keys of a claim: each statement, with its own key and those that may accompany it.
+pub fn claim_keys() -> Vec<(&'static str, Vec<ShapedKey>)> {
+    let shaped = |statement: &'static str,
+                  common: &[&'static str],
+                  companions: &[&'static str],
+                  shapes: &[ShapedKey]| {
+        let keys = [&[statement], common, companions].concat().into_iter();
+        let shape = |key| match key {
+            "note" => ValueShape::List,
+            _ => ValueShape::of(key, shapes),
+        };
+        (statement, keys.map(|key| (key, shape(key))).collect())
+    };
+    let stated = STATEMENTS
+        .iter()
+        .map(|key| shaped(key, &COMMON, ClaimKind::companions(key), ClaimKind::shapes(key)));
+    let motions = MOTIONS.iter().map(|key| {
+        shaped(key, &COMMON_OF_MOTIONS, MotionKind::companions(key), MotionKind::shapes(key))
+    });
+    let absences = ABSENCES
+        .iter()
+        .map(|key| shaped(key, &COMMON, Absence::companions(key), Absence::shapes(key)));
     stated.chain(motions).chain(absences).collect()
 }
 

@@ -69,7 +69,7 @@ use crate::mechanics::{Chart, Draw, Model};
 pub use crate::claim::Expect;
 pub use builder::ModelBuilder;
 pub use claim_error::ClaimError;
-pub use claims::claim_keys;
+pub use claims::{ShapedKey, claim_keys};
 pub use clock::TimeParts;
 pub use ends::number;
 pub use error::{CaseError, Mistake, Problem};

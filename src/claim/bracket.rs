@@ -1,7 +1,7 @@
 //! Brackets of functions of the new variables: {F,G} = K in the bracket of `[poisson]`.
 
 use super::of_bracket::{CHOICE, OfBracket, bracket_of, turned, variables};
-use super::{Reader, difference};
+use super::{Reader, ValueShape, difference};
 use crate::formula::{Formula, Type};
 use crate::mechanics::NewVariables;
 use crate::mechanics::calculus::DualPoint;
@@ -46,6 +46,7 @@ fn slopes<T: Scalar>(there: &DualPoint<'_, T>, function: &Formula) -> Vec<Vec<T>
 impl OfBracket for Bracket {
     const NAME: &'static str = "bracket";
     const COMPANIONS: &'static [&'static str] = &["equals", CHOICE];
+    const SHAPES: &'static [(&'static str, ValueShape)] = &[(Self::NAME, ValueShape::List)];
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
         let bracket = bracket_of(from, Self::NAME)?;

@@ -1,7 +1,9 @@
 //! Commutators of vector fields: [u,w] = (u·∇)w − (w·∇)u = z, component by component.
 
 use super::components::Components;
-use super::{Condition, Reader, ResidualContext, Statement, difference, quadrature_defects};
+use super::{
+    Condition, Reader, ResidualContext, Statement, ValueShape, difference, quadrature_defects,
+};
 use crate::formula::Formula;
 use crate::graph::Expr;
 use crate::mechanics::Phase;
@@ -39,6 +41,8 @@ impl Commutator {
 impl Statement for Commutator {
     const NAME: &'static str = "commutator";
     const COMPANIONS: &'static [&'static str] = &["equals"];
+    const SHAPES: &'static [(&'static str, ValueShape)] =
+        &[(Self::NAME, ValueShape::Table), ("equals", ValueShape::Table)];
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
         let names = &from.model().vocabulary;

@@ -1,6 +1,7 @@
 //! Compatible brackets: every combination aP + bQ satisfies Jacobi's identity where P and Q do.
 
 use super::Reader;
+use super::ValueShape;
 use super::of_bracket::{OfBracket, named_bracket, tensor_slopes};
 use crate::mechanics::NewVariables;
 use crate::mechanics::calculus::DualPoint;
@@ -17,6 +18,7 @@ pub struct Compatible {
 impl OfBracket for Compatible {
     const NAME: &'static str = "compatible";
     const COMPANIONS: &'static [&'static str] = &[];
+    const SHAPES: &'static [(&'static str, ValueShape)] = &[(Self::NAME, ValueShape::List)];
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
         let names = from.texts(Self::NAME)?.ok_or_else(|| from.missing(Self::NAME))?;

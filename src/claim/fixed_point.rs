@@ -7,7 +7,7 @@ use super::components::Components;
 use super::elsewhere::{inside, system_at_point};
 use super::point::read_point;
 use super::statement::Objection;
-use super::{ComplexFormula, Reader, Statement, difference};
+use super::{ComplexFormula, Reader, Statement, ValueShape, difference};
 use crate::formula::{Formula, Type};
 use crate::graph::{Evaluator, Expr, Tape, record};
 use crate::mechanics::calculus::DualPoint;
@@ -29,6 +29,11 @@ pub struct FixedPoint {
 impl Statement for FixedPoint {
     const NAME: &'static str = "fixed-point";
     const COMPANIONS: &'static [&'static str] = &["spectrum", "characteristic-polynomial"];
+    const SHAPES: &'static [(&'static str, ValueShape)] = &[
+        (Self::NAME, ValueShape::Table),
+        ("spectrum", ValueShape::List),
+        ("characteristic-polynomial", ValueShape::List),
+    ];
     const WIDENS: bool = false;
     const OF_MAPS: bool = true;
 

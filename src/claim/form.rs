@@ -4,7 +4,7 @@
 //! on a level they are compared on vectors along it.
 
 use super::components::Components;
-use super::{Condition, Objection, Reader, ResidualContext, Statement};
+use super::{Condition, Objection, Reader, ResidualContext, Statement, ValueShape};
 use crate::formula::{Formula, Type, canonical_name};
 use crate::graph::Expr;
 use crate::mechanics::calculus::DualPoint;
@@ -186,6 +186,7 @@ fn along_level<T: Scalar>(form: &mut [T], gradients: &[Vec<T>], across: &[Vec<T>
 impl Statement for Form {
     const NAME: &'static str = "form";
     const COMPANIONS: &'static [&'static str] = &["factor"];
+    const SHAPES: &'static [(&'static str, ValueShape)] = &[(Self::NAME, ValueShape::Table)];
     const OF_MAPS: bool = true;
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {

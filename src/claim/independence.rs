@@ -1,6 +1,6 @@
 //! Functional independence, by the gradients of some functions and of the level functions.
 
-use super::{Reader, Statement};
+use super::{Reader, Statement, ValueShape};
 use crate::formula::Formula;
 use crate::mechanics::Model;
 use crate::mechanics::calculus::DualPoint;
@@ -25,6 +25,7 @@ pub const MOST_FUNCTIONS: usize = 24;
 
 impl Statement for Independent {
     const NAME: &'static str = "independent";
+    const SHAPES: &'static [(&'static str, ValueShape)] = &[(Self::NAME, ValueShape::List)];
     const OF_MAPS: bool = true;
     const NEGATED: bool = true;
     const WIDENS: bool = false;

@@ -13,7 +13,7 @@ use super::of_bracket::{
     CHOICE, bracket_of, images_as_written, tensor_slopes, they_vary, turned, written,
 };
 use super::statement::Objection;
-use super::{Condition, Jets, Need, Reader, Statement, clock};
+use super::{Condition, Jets, Need, Reader, Statement, ValueShape, clock};
 use crate::formula::Formula;
 use crate::graph::Expr;
 use crate::mechanics::calculus::DualPoint;
@@ -44,6 +44,7 @@ pub struct Involution {
 impl Statement for Involution {
     const NAME: &'static str = "involution";
     const COMPANIONS: &'static [&'static str] = &[THEOREM, CHOICE];
+    const SHAPES: &'static [(&'static str, ValueShape)] = &[(Self::NAME, ValueShape::List)];
     const WIDENS: bool = false;
     const JETS: Jets = Jets::Twice;
 

@@ -2,7 +2,7 @@
 
 use num_traits::{One, Zero};
 
-use super::{Condition, Reader, ResidualContext, Statement, difference};
+use super::{Condition, Reader, ResidualContext, Statement, ValueShape, difference};
 use crate::formula::{Formula, Type};
 use crate::graph::Expr;
 use crate::mechanics::Phase;
@@ -70,6 +70,7 @@ impl Lax {
 
 impl Statement for Lax {
     const NAME: &'static str = "lax";
+    const SHAPES: &'static [(&'static str, ValueShape)] = &[(Self::NAME, ValueShape::Table)];
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
         let remedy = "write lax = { L = \"…\", A = \"…\" } for L' = L*A − A*L";

@@ -29,6 +29,7 @@ mod independence;
 mod integral;
 mod involution;
 mod jacobi_identity;
+mod kinds;
 mod kinks;
 mod lax;
 mod limit;
@@ -58,6 +59,7 @@ use crate::mechanics::calculus::DualPoint;
 use crate::mechanics::{Model, NewVariables};
 use crate::proof::Group;
 use crate::scalar::Scalar;
+use kinds::statements;
 
 pub use bracket::Bracket;
 pub use casimir::Casimir;
@@ -81,6 +83,7 @@ pub use independence::{Independent, MOST_FUNCTIONS as MOST_COMPARED};
 pub use integral::Integral;
 pub use involution::Involution;
 pub use jacobi_identity::JacobiIdentity;
+pub use kinds::ValueShape;
 pub use kinks::may_have_kinks;
 pub use lax::Lax;
 pub use limit::Limit;
@@ -98,10 +101,12 @@ pub use value::{Claim, Locus};
 /// Lists the kinds of claims; each is one [`Statement`], written in one file.
 macro_rules! kinds {
     ($($kind:ident),* $(,)?) => {
-        /// A claimed statement, by kind.
-        #[derive(Clone, Debug)]
-        pub enum ClaimKind {
-            $(#[doc = concat!("See [`", stringify!($kind), "`].")] $kind($kind),)*
+        statements! {
+            /// A claimed statement, by kind.
+            ClaimKind,
+            /// Keys of the statements that a claim can make.
+            STATEMENTS,
+            $($kind),*
         }
 
         /// Evaluates an expression for the statement of any kind.
@@ -110,9 +115,6 @@ macro_rules! kinds {
                 match $self { $(ClaimKind::$kind($statement) => $result,)* }
             };
         }
-
-        /// Keys of the statements that a claim can make.
-        pub const STATEMENTS: &[&str] = &[$($kind::NAME),*];
 
         /// Returns the derivatives that the statement of this key contains.
         pub fn jets(key: &str) -> Jets {
@@ -123,27 +125,6 @@ macro_rules! kinds {
         }
 
         impl ClaimKind {
-            /// Reads the statement of `key`, one of [`STATEMENTS`].
-            pub fn read<R: Reader>(key: &str, from: &R) -> Option<Result<Self, R::Error>> {
-                match key {
-                    $(_ if key == $kind::NAME => Some($kind::read(from).map(ClaimKind::$kind)),)*
-                    _ => None,
-                }
-            }
-
-            /// Returns the keys that may accompany the statement of `key`.
-            pub fn companions(key: &str) -> &'static [&'static str] {
-                match key {
-                    $(_ if key == $kind::NAME => $kind::COMPANIONS,)*
-                    _ => &[],
-                }
-            }
-
-            /// Returns the kind's name in case files and reports.
-            pub fn name(&self) -> &'static str {
-                match self { $(ClaimKind::$kind(_) => $kind::NAME,)* }
-            }
-
             /// Whether the claim is that the residual is *not* identically zero.
             pub fn is_negated(&self) -> bool {
                 match self { $(ClaimKind::$kind(_) => $kind::NEGATED,)* }

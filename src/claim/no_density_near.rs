@@ -13,7 +13,7 @@ use super::components::Components;
 use super::elsewhere::{inside, system_at_point};
 use super::point::read_point;
 use super::statement::Objection;
-use super::{Condition, Need, Reader, ResidualContext, Statement, difference};
+use super::{Condition, Need, Reader, ResidualContext, Statement, ValueShape, difference};
 use crate::graph::Expr;
 use crate::mechanics::Model;
 use crate::mechanics::calculus::DualPoint;
@@ -42,6 +42,7 @@ impl NoDensityNear {
 
 impl Statement for NoDensityNear {
     const NAME: &'static str = "no-density-near";
+    const SHAPES: &'static [(&'static str, ValueShape)] = &[(Self::NAME, ValueShape::Table)];
     const WIDENS: bool = false;
     const OF_MAPS: bool = true;
 

@@ -2,7 +2,7 @@
 
 use num_dual::Dual;
 
-use super::{Condition, Need, Reader, Statement, quadrature_defects};
+use super::{Condition, Need, Reader, Statement, ValueShape, quadrature_defects};
 use crate::formula::{Formula, Type};
 use crate::graph::Expr;
 use crate::mechanics::calculus::DualPoint;
@@ -16,6 +16,8 @@ pub trait OfBracket: Clone {
     const NAME: &'static str;
     /// Keys that may accompany the statement.
     const COMPANIONS: &'static [&'static str] = &[CHOICE];
+    /// Those of its keys whose values are more than a text.
+    const SHAPES: &'static [(&'static str, ValueShape)] = &[];
 
     /// Reads the statement.
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error>;
@@ -45,6 +47,7 @@ pub trait OfBracket: Clone {
 impl<S: OfBracket> Statement for S {
     const NAME: &'static str = <S as OfBracket>::NAME;
     const COMPANIONS: &'static [&'static str] = <S as OfBracket>::COMPANIONS;
+    const SHAPES: &'static [(&'static str, ValueShape)] = <S as OfBracket>::SHAPES;
     const OF_MAPS: bool = true;
     const AT_IMAGES: bool = true;
 

@@ -1,6 +1,6 @@
 //! Interface of the kinds of claims.
 
-use super::{Condition, Novelty, Reader, ResidualContext};
+use super::{Condition, Novelty, Reader, ResidualContext, ValueShape};
 use crate::formula::Formula;
 use crate::graph::Expr;
 use crate::mechanics::calculus::DualPoint;
@@ -63,6 +63,8 @@ pub trait Statement: Clone {
     const NAME: &'static str;
     /// Keys that may accompany the statement.
     const COMPANIONS: &'static [&'static str] = &[];
+    /// Those of its keys whose values are more than a text, by which editors complete a file.
+    const SHAPES: &'static [(&'static str, ValueShape)] = &[];
     /// Whether the claim is that the residual is *not* identically zero.
     const NEGATED: bool = false;
     /// Whether the claim is about a measure, of which states of lower dimension have none.

@@ -1,7 +1,7 @@
 //! Symmetry fields, tangent to the level: [u,v] = (u·∇)v - (v·∇)u vanishes, or is a multiple of v.
 
 use super::components::Components;
-use super::{Condition, Reader, Statement};
+use super::{Condition, Reader, Statement, ValueShape};
 use crate::formula::{Formula, Type};
 use crate::graph::Expr;
 use crate::mechanics::calculus::DualPoint;
@@ -18,6 +18,7 @@ pub struct SymmetryField {
 impl Statement for SymmetryField {
     const NAME: &'static str = "symmetry-field";
     const COMPANIONS: &'static [&'static str] = &["weight"];
+    const SHAPES: &'static [(&'static str, ValueShape)] = &[(Self::NAME, ValueShape::Table)];
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
         let components = Components::read(from, Self::NAME, &from.model().vocabulary)?

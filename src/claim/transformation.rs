@@ -5,7 +5,7 @@ use num_dual::DualNum;
 use super::elsewhere::{one_antiderivative, system_at, written_at};
 use super::images::Transformation;
 use super::statement::open_constant;
-use super::{Condition, Jets, Need, Reader, Statement, difference, quadrature_defects};
+use super::{Condition, Jets, Need, Reader, Statement, ValueShape, difference, quadrature_defects};
 use crate::formula::{Formula, Type};
 use crate::graph::{Expr, literally, record};
 use crate::mechanics::calculus::DualPoint;
@@ -57,6 +57,7 @@ fn vanishes(model: &Model, formula: &Formula) -> bool {
 impl Statement for Symmetry {
     const NAME: &'static str = "symmetry";
     const COMPANIONS: &'static [&'static str] = &["time"];
+    const SHAPES: &'static [(&'static str, ValueShape)] = &[(Self::NAME, ValueShape::Table)];
     const JETS: Jets = Jets::TwoPoints;
     const OF_MAPS: bool = true;
 
@@ -160,6 +161,7 @@ impl Statement for Symmetry {
 
 impl Statement for Reversor {
     const NAME: &'static str = "reversor";
+    const SHAPES: &'static [(&'static str, ValueShape)] = &[(Self::NAME, ValueShape::Table)];
     const JETS: Jets = Jets::TwoPoints;
     const OF_MAPS: bool = true;
 
@@ -232,6 +234,8 @@ impl Statement for Reversor {
 impl Statement for Map {
     const NAME: &'static str = "map";
     const COMPANIONS: &'static [&'static str] = &["field", "multiplier"];
+    const SHAPES: &'static [(&'static str, ValueShape)] =
+        &[(Self::NAME, ValueShape::Table), ("field", ValueShape::Table)];
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
         let model = from.model();

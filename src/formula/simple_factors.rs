@@ -1,5 +1,5 @@
 //! Formulas with the zeros of another one, in which each factor stands once: x − y for (x − y)², and
-//! sin(u/2) for 1 − cos u.
+//! sin(u/2) for 1 − cos u. Rules F1 to F7 of docs/soundness-levels.md.
 
 use super::Formula;
 use super::arena::{Arena, Constant, ElementaryFunction, NodeId, NodeOperation};

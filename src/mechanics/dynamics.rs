@@ -16,17 +16,19 @@ use crate::scalar::Scalar;
 /// A kind of mechanical system.
 pub(super) trait Dynamics {
     /// Returns the formulas of the equations of motion that may depend on the state.
-    fn functions(&self) -> Vec<&Formula>;
+    fn functions(&self) -> Vec<&Formula> {
+        self.body().map_or_else(Vec::new, RigidBody::functions)
+    }
 
     /// Returns the formulas of the constants in the equations of motion.
     fn constants(&self) -> Vec<&Formula> {
-        Vec::new()
+        self.body().map_or_else(Vec::new, RigidBody::constants)
     }
 
     /// Returns those of the formulas whose physical dimensions are checked: all but lists of
     /// parameters.
     fn dimensional(&self) -> Vec<&Formula> {
-        self.functions()
+        self.body().map_or_else(|| self.functions(), RigidBody::dimensional)
     }
 
     /// Returns the chart of the level set that the system has by itself.
@@ -38,8 +40,8 @@ pub(super) trait Dynamics {
     fn field<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T>;
 
     /// Energy, for systems that have one.
-    fn energy<T: Scalar>(&self, _: &Phase<'_, T>) -> Option<T> {
-        None
+    fn energy<T: Scalar>(&self, phase: &Phase<'_, T>) -> Option<T> {
+        self.body().map(|body| body.energy(phase))
     }
 
     /// Whether the system has an energy.
@@ -49,7 +51,7 @@ pub(super) trait Dynamics {
 
     /// Whether the rates of velocities may be more than quadratic forms of the velocities.
     fn energy_is_inhomogeneous(&self) -> bool {
-        true
+        self.body().is_none_or(RigidBody::is_loaded)
     }
 
     /// Returns the same system without potential and gyrostat, where the free motion is known.
@@ -157,7 +159,7 @@ pub(super) trait Dynamics {
 
     /// Whether the level functions are integrals in all of phase space by construction.
     fn conserves_level(&self) -> bool {
-        false
+        self.body().is_some_and(RigidBody::is_homogeneous)
     }
 
     /// Evaluates a quantity named in a formula.
@@ -166,8 +168,13 @@ pub(super) trait Dynamics {
     }
 
     /// Evaluates a quantity that does not depend on velocities and needs no derivative.
-    fn configuration_quantity<T: Scalar>(&self, _: Quantity, _: &Configuration<'_, T>) -> Value<T> {
-        Value::Scalar(T::undefined())
+    fn configuration_quantity<T: Scalar>(
+        &self,
+        quantity: Quantity,
+        at: &Configuration<'_, T>,
+    ) -> Value<T> {
+        let of_body = self.body().map(|body| body.configuration_quantity(quantity, at));
+        of_body.unwrap_or_else(|| Value::Scalar(T::undefined()))
     }
 }
 

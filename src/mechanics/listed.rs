@@ -6,9 +6,9 @@
 
 use num_traits::Zero;
 
+use super::Phase;
 use super::model::{Model, ParameterOrigin};
 use super::recipe::{Draw, SamplerSpec};
-use super::{Phase, System};
 use crate::formula::Value;
 use crate::graph::{Expr, has_moduli, left_out, literally, record};
 use crate::number::UnaryFunction;
@@ -52,7 +52,7 @@ impl Model {
     /// form, as accelerations are 0/0 or 1/0 where a mass is 0. Fields that formulas give are left
     /// out, as these formulas are required anyway.
     pub fn find_undetermined(&self) -> Vec<ListedValues> {
-        if matches!(self.system, System::Field(_) | System::Map(_) | System::Hamiltonian(_)) {
+        if self.system.is_given_by_formulas() {
             return Vec::new();
         }
         let is_listed = |origin: &ParameterOrigin| {

@@ -2,8 +2,6 @@
 //!
 //! The values of a case are substituted into the equations of [`rolling`](super::rolling).
 
-use std::ops::{Deref, DerefMut};
-
 use nalgebra::Vector3;
 
 use super::body::{SurfacePolynomial, scalar, vector};
@@ -25,20 +23,6 @@ pub const NORMAL: usize = 1;
 /// A body that rolls without slipping or spinning.
 #[derive(Clone, Debug)]
 pub struct Rubber(pub RigidBody);
-
-impl Deref for Rubber {
-    type Target = RigidBody;
-
-    fn deref(&self) -> &RigidBody {
-        &self.0
-    }
-}
-
-impl DerefMut for Rubber {
-    fn deref_mut(&mut self) -> &mut RigidBody {
-        &mut self.0
-    }
-}
 
 /// A potential U(γ), or U(r) of a ball on a surface.
 #[derive(Clone, Debug)]
@@ -62,23 +46,11 @@ pub fn angular_velocity<T: Scalar>(at: &Configuration<'_, T>) -> Vector3<T> {
 impl Rubber {
     /// Computes ω' and λ.
     pub(super) fn acceleration<T: Scalar>(&self, phase: &Phase<'_, T>) -> (Vector3<T>, T) {
-        self.motion(phase).acceleration(self.torque(phase))
+        self.0.motion(phase).acceleration(self.0.torque(phase))
     }
 }
 
 impl Dynamics for Rubber {
-    fn functions(&self) -> Vec<&Formula> {
-        self.0.functions()
-    }
-
-    fn constants(&self) -> Vec<&Formula> {
-        self.0.constants()
-    }
-
-    fn dimensional(&self) -> Vec<&Formula> {
-        self.0.dimensional()
-    }
-
     fn chart(&self) -> Chart {
         Chart::Rolling
     }
@@ -86,20 +58,12 @@ impl Dynamics for Rubber {
     /// Returns the rates (ω', γ').
     fn field<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
         let (acceleration, _) = self.acceleration(phase);
-        let rate = self.motion(phase).normal_rate;
+        let rate = self.0.motion(phase).normal_rate;
         acceleration.iter().chain(rate.iter()).copied().collect()
     }
 
-    fn energy<T: Scalar>(&self, phase: &Phase<'_, T>) -> Option<T> {
-        Some(self.0.energy(phase))
-    }
-
-    fn energy_is_inhomogeneous(&self) -> bool {
-        self.is_loaded()
-    }
-
     fn without_forces(&self) -> Option<System> {
-        self.unloaded().map(|body| System::Rubber(Box::new(Self(body))))
+        self.0.unloaded().map(|body| System::Rubber(Box::new(Self(body))))
     }
 
     fn body(&self) -> Option<&RigidBody> {
@@ -143,24 +107,12 @@ impl Dynamics for Rubber {
         Some(self.tangential_chi(&phase.configuration).into())
     }
 
-    fn conserves_level(&self) -> bool {
-        self.is_homogeneous()
-    }
-
     fn quantity<T: Scalar>(&self, quantity: Quantity, phase: &Phase<'_, T>) -> Value<T> {
         match quantity {
             Quantity::AngularAcceleration => Value::Vector(self.acceleration(phase).0),
             Quantity::Multiplier => Value::Scalar(self.acceleration(phase).1),
             _ => self.0.quantity(quantity, phase),
         }
-    }
-
-    fn configuration_quantity<T: Scalar>(
-        &self,
-        quantity: Quantity,
-        at: &Configuration<'_, T>,
-    ) -> Value<T> {
-        self.0.configuration_quantity(quantity, at)
     }
 }
 

@@ -23,12 +23,12 @@ impl Rubber {
     /// Computes w = (s/D_T) Γᵀa, whose rotation about γ is the criterion; w = a on the plane.
     pub(super) fn covector<T: Scalar>(&self, at: &Configuration<'_, T>) -> Vector3<T> {
         let unit = self.inertial_normal(at);
-        let Some(k) = self.curvature_at(at) else { return unit };
+        let Some(k) = self.0.curvature_at(at) else { return unit };
         let gamma = normal(at);
-        let (_, slope) = self.shape.contact(at);
-        let Some(big_gamma) = self.gamma_across(at, &slope) else { return unit };
+        let (_, slope) = self.0.shape.contact(at);
+        let Some(big_gamma) = self.0.gamma_across(at, &slope) else { return unit };
         let twist = T::one() - k * k * across(&slope, &gamma);
-        let turned = self.gamma_matrix(&slope, k).transpose() * unit;
+        let turned = self.0.gamma_matrix(&slope, k).transpose() * unit;
         turned * (twist / big_gamma.determinant())
     }
 
@@ -46,8 +46,8 @@ impl Rubber {
     /// Computes a = Ĩ⁻¹γ/(γ,Ĩ⁻¹γ).
     pub(super) fn inertial_normal<T: Scalar>(&self, at: &Configuration<'_, T>) -> Vector3<T> {
         let gamma = normal(at);
-        let (r, _) = self.shape.contact(at);
-        let along = adjugate(&self.inertia_at(at, &r)) * gamma;
+        let (r, _) = self.0.shape.contact(at);
+        let along = adjugate(&self.0.inertia_at(at, &r)) * gamma;
         along.map(|x| x / gamma.dot(&along))
     }
 
@@ -60,7 +60,7 @@ impl Rubber {
             volume.eps / volume.re
         });
         let covector = self.covector(at) - drift;
-        let turned = match self.gamma_across(at, &self.shape.contact(at).1) {
+        let turned = match self.0.gamma_across(at, &self.0.shape.contact(at).1) {
             None => covector,
             Some(big_gamma) => big_gamma.solve_transposed(&covector),
         };
@@ -70,9 +70,9 @@ impl Rubber {
     /// Computes the reference density ρ₀ = det Ĩ (γ,Ĩ⁻¹γ) D_T.
     pub(super) fn volume<T: Scalar>(&self, at: &Configuration<'_, T>) -> T {
         let gamma = normal(at);
-        let (r, slope) = self.shape.contact(at);
-        let volume = gamma.dot(&(adjugate(&self.inertia_at(at, &r)) * gamma));
-        match self.gamma_across(at, &slope) {
+        let (r, slope) = self.0.shape.contact(at);
+        let volume = gamma.dot(&(adjugate(&self.0.inertia_at(at, &r)) * gamma));
+        match self.0.gamma_across(at, &slope) {
             None => volume,
             Some(big_gamma) => volume * big_gamma.determinant(),
         }

@@ -29,10 +29,10 @@ use crate::scalar::Scalar;
 impl Rubber {
     /// Computes values that occur in claims about a body.
     pub(super) fn known_values<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
-        let motion = self.motion(phase);
+        let motion = self.0.motion(phase);
         let Pose { omega, gamma, mass, r, .. } = &motion.pose;
         let (_, multiplier) = self.acceleration(phase);
-        let (torque, constraint) = (self.torque(phase), gamma * multiplier);
+        let (torque, constraint) = (self.0.torque(phase), gamma * multiplier);
         let slide = &motion.contact_rate;
         let approach = r.dot(slide);
         // r×(ω×r')
@@ -47,7 +47,7 @@ impl Rubber {
             [momentum_rate, moved + (short_torque + constraint), spin + turning + constraint];
         let energy_rate = momentum_rate.dot(omega) + force.dot(omega);
         let mut values: Vec<T> = rates.iter().flatten().copied().chain([energy_rate]).collect();
-        if self.curvature.is_none() {
+        if self.0.curvature.is_none() {
             let terms = OnPlane::of(motion);
             values.extend([terms.divergence(), terms.logarithmic_rate(), terms.rotation]);
         }
@@ -57,8 +57,8 @@ impl Rubber {
     /// Computes div v where a closed formula is known: on the plane, without a moment besides a
     /// potential.
     pub(super) fn known_divergence<T: Scalar>(&self, phase: &Phase<'_, T>) -> Option<T> {
-        let known = self.curvature.is_none() && self.moment.is_none();
-        known.then(|| OnPlane::of(self.motion(phase)).divergence())
+        let known = self.0.curvature.is_none() && self.0.moment.is_none();
+        known.then(|| OnPlane::of(self.0.motion(phase)).divergence())
     }
 }
 

@@ -21,8 +21,6 @@
 //! ρ = D_T det Ĩ N(γ) is invariant exactly when C₁ = 0 and d ln N = (θ,dγ), so that some N exists
 //! on the sphere exactly when C₁ = 0 and C₂ = 0 there. Neither U nor S enters.
 
-use std::ops::{Deref, DerefMut};
-
 use nalgebra::{Matrix3, Vector3};
 use num_dual::Dual;
 
@@ -35,26 +33,12 @@ use super::quantity::Quantity;
 use super::rigid::RigidBody;
 use super::rubber::{NORMAL, angular_velocity, normal};
 use super::system::System;
-use crate::formula::{Formula, Value};
+use crate::formula::Value;
 use crate::scalar::Scalar;
 
 /// A body that rolls without slipping and may spin.
 #[derive(Clone, Debug)]
 pub struct Spinning(pub RigidBody);
-
-impl Deref for Spinning {
-    type Target = RigidBody;
-
-    fn deref(&self) -> &RigidBody {
-        &self.0
-    }
-}
-
-impl DerefMut for Spinning {
-    fn deref_mut(&mut self) -> &mut RigidBody {
-        &mut self.0
-    }
-}
 
 /// The body at one γ, where its measure is concerned.
 struct MeasurePose<T> {
@@ -101,19 +85,19 @@ impl<T: Scalar> MeasurePose<T> {
 impl Spinning {
     fn pose<T: Scalar>(&self, at: &Configuration<'_, T>) -> MeasurePose<T> {
         let gamma = normal(at);
-        let (r, slope) = self.shape.contact(at);
-        let across = self.gamma_across(at, &slope);
+        let (r, slope) = self.0.shape.contact(at);
+        let across = self.0.gamma_across(at, &slope);
         let turned = |j: usize| {
             let mut unit = Vector3::repeat(T::zero());
             unit[j] = T::one();
             let free = gamma.cross(&unit);
             slope * across.as_ref().map_or(free, |big_gamma| big_gamma.solve(&free))
         };
-        let inertia = self.inertia_at(at, &r);
+        let inertia = self.0.inertia_at(at, &r);
         let adjugate = adjugate(&inertia);
         let determinant = determinant_with(&inertia, &adjugate);
         MeasurePose {
-            mass: at.scalar(&self.mass),
+            mass: at.scalar(&self.0.mass),
             inverse: adjugate.map(|x| x / determinant),
             rolling: Matrix3::from_columns(&[0, 1, 2].map(turned)),
             gamma,
@@ -136,26 +120,14 @@ impl Spinning {
 
     /// Computes ω'.
     fn acceleration<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vector3<T> {
-        let inertia = &self.motion(phase).pose.inertia;
+        let inertia = &self.0.motion(phase).pose.inertia;
         let adjugate = adjugate(inertia);
         let determinant = determinant_with(inertia, &adjugate);
-        (adjugate * self.torque(phase)).map(|x| x / determinant)
+        (adjugate * self.0.torque(phase)).map(|x| x / determinant)
     }
 }
 
 impl Dynamics for Spinning {
-    fn functions(&self) -> Vec<&Formula> {
-        self.0.functions()
-    }
-
-    fn constants(&self) -> Vec<&Formula> {
-        self.0.constants()
-    }
-
-    fn dimensional(&self) -> Vec<&Formula> {
-        self.0.dimensional()
-    }
-
     fn chart(&self) -> Chart {
         Chart::Sphere
     }
@@ -163,20 +135,12 @@ impl Dynamics for Spinning {
     /// Returns the rates (ω', γ').
     fn field<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
         let acceleration = self.acceleration(phase);
-        let rate = self.motion(phase).normal_rate;
+        let rate = self.0.motion(phase).normal_rate;
         acceleration.iter().chain(rate.iter()).copied().collect()
     }
 
-    fn energy<T: Scalar>(&self, phase: &Phase<'_, T>) -> Option<T> {
-        Some(self.0.energy(phase))
-    }
-
-    fn energy_is_inhomogeneous(&self) -> bool {
-        self.is_loaded()
-    }
-
     fn without_forces(&self) -> Option<System> {
-        self.unloaded().map(|body| System::Spinning(Box::new(Self(body))))
+        self.0.unloaded().map(|body| System::Spinning(Box::new(Self(body))))
     }
 
     fn body(&self) -> Option<&RigidBody> {
@@ -189,16 +153,16 @@ impl Dynamics for Spinning {
 
     /// Computes (χ,ω) - (ln D_T)', for a support function and moments of γ alone.
     fn divergence<T: Scalar>(&self, phase: &Phase<'_, T>) -> Option<T> {
-        if self.moment.is_some() || !self.is_homogeneous() {
+        if self.0.moment.is_some() || !self.0.is_homogeneous() {
             return None;
         }
         let at = &phase.configuration;
         let spread = self.pose(at).chi().dot(&angular_velocity(at));
-        if self.curvature.is_none() {
+        if self.0.curvature.is_none() {
             return Some(spread);
         }
-        let rate = self.motion(phase).normal_rate;
-        let volume = self.gamma_determinant(&at.lift(NORMAL, Value::Vector(rate)));
+        let rate = self.0.motion(phase).normal_rate;
+        let volume = self.0.gamma_determinant(&at.lift(NORMAL, Value::Vector(rate)));
         Some(spread - volume.eps / volume.re)
     }
 
@@ -226,17 +190,17 @@ impl Dynamics for Spinning {
 
     /// Returns D_T det Ĩ.
     fn reference_density<T: Scalar>(&self, at: &Configuration<'_, T>) -> Option<T> {
-        Some(self.pose(at).determinant * self.gamma_determinant(at))
+        Some(self.pose(at).determinant * self.0.gamma_determinant(at))
     }
 
     /// Returns χ less the covector of (ln D_T)'.
     fn chi<T: Scalar>(&self, phase: &Phase<'_, T>) -> Option<[T; 3]> {
         let at = &phase.configuration;
         let chi = self.pose(at).chi();
-        let (_, slope) = self.shape.contact(at);
-        let Some(big_gamma) = self.gamma_across(at, &slope) else { return Some(chi.into()) };
+        let (_, slope) = self.0.shape.contact(at);
+        let Some(big_gamma) = self.0.gamma_across(at, &slope) else { return Some(chi.into()) };
         let drift = Vector3::from_fn(|j, _| {
-            let volume = self.gamma_determinant(&at.lift_normal(j));
+            let volume = self.0.gamma_determinant(&at.lift_normal(j));
             volume.eps / volume.re
         });
         Some((chi - big_gamma.solve_transposed(&drift).cross(&normal(at))).into())
@@ -247,11 +211,7 @@ impl Dynamics for Spinning {
     }
 
     fn turning_moment<T: Scalar>(&self, phase: &Phase<'_, T>) -> Option<[T; 3]> {
-        self.moment.is_none().then(|| self.torque(phase).into())
-    }
-
-    fn conserves_level(&self) -> bool {
-        self.is_homogeneous()
+        self.0.moment.is_none().then(|| self.0.torque(phase).into())
     }
 
     fn quantity<T: Scalar>(&self, quantity: Quantity, phase: &Phase<'_, T>) -> Value<T> {
@@ -260,13 +220,5 @@ impl Dynamics for Spinning {
             Quantity::DivergenceCovector => Value::Vector(self.pose(&phase.configuration).chi()),
             _ => self.0.quantity(quantity, phase),
         }
-    }
-
-    fn configuration_quantity<T: Scalar>(
-        &self,
-        quantity: Quantity,
-        at: &Configuration<'_, T>,
-    ) -> Value<T> {
-        self.0.configuration_quantity(quantity, at)
     }
 }

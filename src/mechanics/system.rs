@@ -156,6 +156,17 @@ impl System {
         matches!(self, System::Map(_))
     }
 
+    /// Whether the system is a field of formulas of the state: given, or of Hamilton's equations.
+    pub fn is_field(&self) -> bool {
+        matches!(self, System::Field(_) | System::Hamiltonian(_))
+    }
+
+    /// Whether formulas alone make the rates or the images: the system is a field or a map, without an
+    /// inertia that has to be inverted.
+    pub fn is_given_by_formulas(&self) -> bool {
+        self.is_field() || self.is_map()
+    }
+
     /// Whether the file gives the rates, or the images, as formulas; otherwise they are derived from energies.
     pub fn has_given_rates(&self) -> bool {
         matches!(self, System::Field(_) | System::Map(_))

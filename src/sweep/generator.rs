@@ -14,8 +14,8 @@
 use crate::engine::{ROW_STATES, RowBlock};
 use crate::graph::{Kernel, with_widest_vectors};
 use crate::mechanics::{Draw, NumberLine};
+use crate::number::{GOLDEN, scrambled};
 
-const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
 /// The factor 2⁻³².
 const UNIT: f64 = 1.0 / (1u64 << 32) as f64;
 
@@ -60,7 +60,7 @@ impl Generator {
                 }
             }
         };
-        let key = |pair: usize| mixed(mixed(seed).wrapping_add(pair as u64));
+        let key = |pair: usize| scrambled(scrambled(seed).wrapping_add(pair as u64));
         Self {
             keys: (0..draws.len().div_ceil(2)).map(key).collect(),
             sources: draws.iter().map(source).collect(),
@@ -93,7 +93,7 @@ impl Kernel for Fill<'_> {
             let mut bits = [0; ROW_STATES];
             for lane in 0..ROW_STATES {
                 let counter = self.start.wrapping_add(lane as u64);
-                bits[lane] = mixed(counter.wrapping_mul(GOLDEN) ^ key);
+                bits[lane] = scrambled(counter.wrapping_mul(GOLDEN) ^ key);
             }
             for (half, (source, row)) in sources.iter().zip(rows).enumerate() {
                 let number = |bits: u64| (bits >> (32 * half)) as u32;
@@ -121,14 +121,6 @@ impl Kernel for Fill<'_> {
             }
         }
     }
-}
-
-/// Bijection of 64 bits in which every bit depends on all.
-#[inline(always)]
-fn mixed(z: u64) -> u64 {
-    let z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    z ^ (z >> 31)
 }
 
 #[cfg(test)]

@@ -1,5 +1,5 @@
 //! Slopes of the level equations at the states: where they depend on each other, rates that are 0 do not
-//! keep the motion on the level.
+//! keep the motion on the level. Rules L1 to L8 of docs/soundness-levels.md.
 
 use super::cell_rank::{CellRank, RankQuestion};
 use super::claim_state::{ClaimState, undecide};

@@ -3,6 +3,8 @@
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
+use liouville::number::{GOLDEN, scrambled};
+
 /// Tokens that formulas and case files are made of, and some that they are not.
 const TOKENS: [&str; 84] = [
     "+",
@@ -107,12 +109,9 @@ impl Random {
     /// Numbers for one input, which depend on the seed and its index alone.
     pub fn new(seed: u64, index: u64) -> Self {
         // two rounds of SplitMix64
-        let mut word = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ index;
+        let mut word = seed.wrapping_mul(GOLDEN) ^ index;
         for _ in 0..2 {
-            word = word.wrapping_add(0x9e37_79b9_7f4a_7c15);
-            word = (word ^ (word >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-            word = (word ^ (word >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-            word ^= word >> 31;
+            word = scrambled(word.wrapping_add(GOLDEN));
         }
         Self(word | 1)
     }

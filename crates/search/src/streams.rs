@@ -1,6 +1,6 @@
 //! Streams of random numbers of the searches: one for each purpose, disjoint from those of proofs.
 
-use liouville::proof::ProofRng;
+use liouville::proof::{ProofRng, ProofStream};
 
 /// Purpose of random numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,12 +19,6 @@ pub enum SearchStream {
     SmallPolynomials = 45,
     /// Choices of minors.
     Minors = 46,
-    /// Points for the characters of an ansatz.
-    Characters = 57,
-    /// Points for the equations of an ansatz.
-    Equations = 58,
-    /// Combinations of the equations of an ansatz.
-    Combinations = 59,
     /// Parameters at which orbits are expanded.
     Orbits = 47,
     /// Points through which orbits are expanded.
@@ -37,9 +31,19 @@ pub enum SearchStream {
     Gradients = 51,
     /// Points at which exponents are compared.
     Exponents = 52,
+    /// Points for the characters of an ansatz.
+    Characters = 57,
+    /// Points for the equations of an ansatz.
+    Equations = 58,
+    /// Combinations of the equations of an ansatz.
+    Combinations = 59,
     /// Primes of an ansatz; each of its moduli has the next stream.
     Moduli = 60,
 }
+
+// The streams of proofs come before the first of these, and those of moduli, without end, are the last.
+const _: () = assert!(ProofStream::LAST < SearchStream::Jets as u64);
+const _: () = assert!((SearchStream::Combinations as u64) < SearchStream::Moduli as u64);
 
 impl SearchStream {
     /// Makes the random numbers for this purpose under a seed.

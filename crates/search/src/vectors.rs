@@ -70,8 +70,7 @@ fn vectors(case: &Case, effort: &Effort) -> Result<Vec<Formula>, SearchError> {
     let model = &case.model;
     let own = model.state.iter().filter(|variable| variable.kind == Type::VECTOR);
     let mut texts: Vec<String> = own.map(|variable| variable.name.clone()).collect();
-    let is_own =
-        matches!(model.system, System::Field(_) | System::Hamiltonian(_) | System::Lagrangian(_));
+    let is_own = model.system.is_field() || matches!(model.system, System::Lagrangian(_));
     let has_six = texts.is_empty() && is_own && model.dimension() == 6 && model.level.is_empty();
     if has_six
         && let Ok(places) = positions(case, effort)?

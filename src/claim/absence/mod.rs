@@ -6,7 +6,8 @@ mod no_density;
 mod no_integral;
 mod no_invariant_relation;
 
-use super::Reader;
+use super::kinds::statements;
+use super::{Reader, ValueShape};
 
 pub use no_density::NoDensity;
 pub use no_integral::NoIntegral;
@@ -16,6 +17,10 @@ pub use no_invariant_relation::NoInvariantRelation;
 pub trait Absent: Clone {
     /// Key in case files, and name in reports.
     const NAME: &'static str;
+    /// Keys that may accompany the statement.
+    const COMPANIONS: &'static [&'static str] = &[];
+    /// Those of its keys whose values are more than a text.
+    const SHAPES: &'static [(&'static str, ValueShape)] = &[(Self::NAME, ValueShape::Table)];
     /// Allowed degrees.
     const DEGREES: std::ops::RangeInclusive<u32>;
 
@@ -43,42 +48,17 @@ pub trait Absent: Clone {
     }
 }
 
-/// A statement of absence.
-#[derive(Clone, Debug)]
-pub enum Absence {
-    /// Absence of further integrals.
-    NoIntegral(NoIntegral),
-    /// Absence of a density.
-    NoDensity(NoDensity),
-    /// Absence of further invariant relations.
-    NoInvariantRelation(NoInvariantRelation),
+statements! {
+    /// A statement of absence.
+    Absence,
+    /// Keys of the statements that a claim of absence can make.
+    ABSENCES,
+    NoIntegral,
+    NoDensity,
+    NoInvariantRelation,
 }
 
-/// Keys of the statements that a claim of absence can make.
-pub const ABSENCES: &[&str] = &[NoIntegral::NAME, NoDensity::NAME, NoInvariantRelation::NAME];
-
 impl Absence {
-    /// Reads the statement of `key`, one of [`ABSENCES`].
-    pub fn read<R: Reader>(key: &str, from: &R) -> Option<Result<Self, R::Error>> {
-        match key {
-            NoIntegral::NAME => Some(NoIntegral::read(from).map(Absence::NoIntegral)),
-            NoDensity::NAME => Some(NoDensity::read(from).map(Absence::NoDensity)),
-            NoInvariantRelation::NAME => {
-                Some(NoInvariantRelation::read(from).map(Absence::NoInvariantRelation))
-            }
-            _ => None,
-        }
-    }
-
-    /// Returns the name of the kind in case files and reports.
-    pub fn name(&self) -> &'static str {
-        match self {
-            Absence::NoIntegral(_) => NoIntegral::NAME,
-            Absence::NoDensity(_) => NoDensity::NAME,
-            Absence::NoInvariantRelation(_) => NoInvariantRelation::NAME,
-        }
-    }
-
     /// Returns the claim in a few words.
     pub fn text(&self) -> String {
         match self {

@@ -1,7 +1,7 @@
 //! Closed orbits, with the change of volume along them.
 
 use super::{Beginning, Motional, Neighbourhood, Stability, Stated, integrals, period, word};
-use crate::claim::Reader;
+use crate::claim::{Reader, ValueShape};
 use crate::formula::Formula;
 
 /// Change of volume along a closed orbit: the sign of the integral of the divergence.
@@ -47,6 +47,12 @@ impl Motional for ClosedOrbit {
         "density",
         "integrals",
         "parameters",
+    ];
+    const SHAPES: &'static [(&'static str, ValueShape)] = &[
+        ("start", ValueShape::List),
+        ("state", ValueShape::ListOrTable),
+        ("integrals", ValueShape::List),
+        ("parameters", ValueShape::Table),
     ];
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {

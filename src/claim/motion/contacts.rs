@@ -1,7 +1,7 @@
 //! Events at a one-sided constraint, and their times.
 
 use super::{Beginning, Motional, Stated, stated, time};
-use crate::claim::Reader;
+use crate::claim::{Reader, ValueShape};
 
 /// An event at the constraint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,6 +27,8 @@ pub struct Contacts {
 impl Motional for Contacts {
     const NAME: &'static str = "contacts";
     const COMPANIONS: &'static [&'static str] = &["state", "time"];
+    const SHAPES: &'static [(&'static str, ValueShape)] =
+        &[(Self::NAME, ValueShape::List), ("state", ValueShape::ListOrTable)];
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
         let texts = from.texts(Self::NAME)?.ok_or_else(|| from.missing(Self::NAME))?;

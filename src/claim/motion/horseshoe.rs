@@ -1,7 +1,7 @@
 //! Horseshoes at a saddle, and the integrals that they exclude.
 
 use super::{Beginning, Motional, Stated, integrals, period, word};
-use crate::claim::Reader;
+use crate::claim::{Reader, ValueShape};
 use crate::formula::Formula;
 
 /// The claim that motions near a closed orbit of saddle kind, with this period, form a horseshoe.
@@ -20,6 +20,11 @@ pub struct Horseshoe {
 impl Motional for Horseshoe {
     const NAME: &'static str = "horseshoe";
     const COMPANIONS: &'static [&'static str] = &["start", "state", "integral", "integrals"];
+    const SHAPES: &'static [(&'static str, ValueShape)] = &[
+        ("start", ValueShape::List),
+        ("state", ValueShape::ListOrTable),
+        ("integrals", ValueShape::List),
+    ];
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
         Ok(Self {

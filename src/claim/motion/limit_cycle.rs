@@ -1,7 +1,7 @@
 //! Motions that tend to a periodic motion.
 
 use super::{Beginning, Motional, Stated, count, point};
-use crate::claim::Reader;
+use crate::claim::{Reader, ValueShape};
 
 /// The claim that the crossings tend to a cycle of the section map.
 #[derive(Clone, Debug)]
@@ -19,6 +19,8 @@ pub struct LimitCycle {
 impl Motional for LimitCycle {
     const NAME: &'static str = "limit-cycle";
     const COMPANIONS: &'static [&'static str] = &["start", "crossings", "point"];
+    const SHAPES: &'static [(&'static str, ValueShape)] =
+        &[("start", ValueShape::List), ("point", ValueShape::List)];
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
         let period = count(from, Self::NAME, 1)?.ok_or_else(|| from.missing(Self::NAME))?;

@@ -18,7 +18,8 @@ mod periodic_point;
 mod reaches;
 mod stated;
 
-use super::Reader;
+use super::kinds::statements;
+use super::{Reader, ValueShape};
 use crate::formula::{Formula, Type};
 
 pub use beginning::Beginning;
@@ -41,6 +42,9 @@ pub trait Motional: Clone {
     const NAME: &'static str;
     /// Keys that may accompany the statement.
     const COMPANIONS: &'static [&'static str];
+    /// Those of its keys whose values are more than a text.
+    const SHAPES: &'static [(&'static str, ValueShape)] =
+        &[("start", ValueShape::List), ("state", ValueShape::ListOrTable)];
 
     /// Reads the statement.
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error>;
@@ -52,54 +56,11 @@ pub trait Motional: Clone {
     fn text(&self) -> String;
 }
 
-/// Lists the kinds of claims about motion; each is one [`Motional`], written in one file.
-macro_rules! kinds {
-    ($($kind:ident),* $(,)?) => {
-        /// A claimed statement about motions, by kind.
-        #[derive(Clone, Debug)]
-        pub enum MotionKind {
-            $(#[doc = concat!("See [`", stringify!($kind), "`].")] $kind($kind),)*
-        }
-
-        /// Keys of the statements that a claim about motion can make.
-        pub const MOTIONS: &[&str] = &[$($kind::NAME),*];
-
-        impl MotionKind {
-            /// Reads the statement of `key`, one of [`MOTIONS`].
-            pub fn read<R: Reader>(key: &str, from: &R) -> Option<Result<Self, R::Error>> {
-                match key {
-                    $(_ if key == $kind::NAME => Some($kind::read(from).map(MotionKind::$kind)),)*
-                    _ => None,
-                }
-            }
-
-            /// Returns the keys that may accompany the statement of `key`.
-            pub fn companions(key: &str) -> &'static [&'static str] {
-                match key {
-                    $(_ if key == $kind::NAME => $kind::COMPANIONS,)*
-                    _ => &[],
-                }
-            }
-
-            /// Returns the kind's name in case files and reports.
-            pub fn name(&self) -> &'static str {
-                match self { $(MotionKind::$kind(_) => $kind::NAME,)* }
-            }
-
-            /// Returns the start of the motion.
-            pub fn beginning(&self) -> &Beginning {
-                match self { $(MotionKind::$kind(claim) => claim.beginning(),)* }
-            }
-
-            /// Returns the statement in a few words.
-            pub fn text(&self) -> String {
-                match self { $(MotionKind::$kind(claim) => claim.text(),)* }
-            }
-        }
-    };
-}
-
-kinds! {
+statements! {
+    /// A claimed statement about motions, by kind.
+    MotionKind,
+    /// Keys of the statements that a claim about motion can make.
+    MOTIONS,
     Exponent,
     MeanDivergence,
     PeriodicPoint,
@@ -110,6 +71,36 @@ kinds! {
     ClosedOrbit,
     Horseshoe,
     Reaches,
+}
+
+/// Evaluates an expression for the statement of any kind.
+macro_rules! of_each {
+    ($self:expr, $statement:ident => $result:expr) => {
+        match $self {
+            MotionKind::Exponent($statement) => $result,
+            MotionKind::MeanDivergence($statement) => $result,
+            MotionKind::PeriodicPoint($statement) => $result,
+            MotionKind::LimitCycle($statement) => $result,
+            MotionKind::Confined($statement) => $result,
+            MotionKind::LimitOfMotion($statement) => $result,
+            MotionKind::Contacts($statement) => $result,
+            MotionKind::ClosedOrbit($statement) => $result,
+            MotionKind::Horseshoe($statement) => $result,
+            MotionKind::Reaches($statement) => $result,
+        }
+    };
+}
+
+impl MotionKind {
+    /// Returns the start of the motion.
+    pub fn beginning(&self) -> &Beginning {
+        of_each!(self, claim => claim.beginning())
+    }
+
+    /// Returns the statement in a few words.
+    pub fn text(&self) -> String {
+        of_each!(self, claim => claim.text())
+    }
 }
 
 /// Reads the number of a key.

@@ -1,7 +1,7 @@
 //! Fixed and periodic points of the section map.
 
 use super::{Beginning, Motional, Stated, count, number, point, word};
-use crate::claim::Reader;
+use crate::claim::{Reader, ValueShape};
 
 /// Stability of a periodic point, by its multipliers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -53,6 +53,7 @@ impl Motional for PeriodicPoint {
     const NAME: &'static str = "periodic-point";
     const COMPANIONS: &'static [&'static str] =
         &["period", "time", "stability", "product", "modulus", "argument", "multiplier"];
+    const SHAPES: &'static [(&'static str, ValueShape)] = &[(Self::NAME, ValueShape::List)];
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
         let at = point(from, Self::NAME)?.ok_or_else(|| from.missing(Self::NAME))?;

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use crate::report::export::{self, Language};
 use crate::report::{diagnostic, sha256};
-use clap::{Args, ValueEnum};
+use clap::Args;
 use liouville::case::Case;
 use liouville::program::Program;
 
@@ -19,7 +19,7 @@ pub struct ExportArgs {
     pub case: PathBuf,
     /// Language of the code
     #[arg(long, value_enum)]
-    pub to: To,
+    pub to: Language,
     /// Write only claims whose name or source contains this text, or matches it if it has `*` or
     /// `?`
     #[arg(long = "claim", value_name = "TEXT")]
@@ -30,45 +30,6 @@ pub struct ExportArgs {
     /// Write to this file instead of standard output
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
-}
-
-/// Language of the code.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum To {
-    /// Python with `math`, in doubles
-    Python,
-    /// Python with SymPy, exact
-    Sympy,
-    /// Julia, in doubles
-    Julia,
-    /// MATLAB or Octave, in doubles
-    Matlab,
-    /// Mathematica, exact
-    Mathematica,
-    /// Maple, exact
-    Maple,
-    /// C99, in doubles
-    C,
-    /// Rust, in doubles
-    Rust,
-    /// LaTeX, a document
-    Latex,
-}
-
-impl From<To> for Language {
-    fn from(to: To) -> Self {
-        match to {
-            To::Python => Language::Python,
-            To::Sympy => Language::Sympy,
-            To::Julia => Language::Julia,
-            To::Matlab => Language::Matlab,
-            To::Mathematica => Language::Mathematica,
-            To::Maple => Language::Maple,
-            To::C => Language::C,
-            To::Rust => Language::Rust,
-            To::Latex => Language::Latex,
-        }
-    }
 }
 
 pub fn run(options: &ExportArgs) -> Result<CommandOutput, String> {
@@ -102,7 +63,7 @@ pub fn run(options: &ExportArgs) -> Result<CommandOutput, String> {
     let module = module(options.out.as_deref(), &options.case);
     let whole =
         export::ExportedCase { case: &case, program: &program, module: &module, origin: &origin };
-    let code = export::render(&whole, options.to.into()).map_err(|problem| {
+    let code = export::render(&whole, options.to).map_err(|problem| {
         let help = "export to sympy, maple or mathematica, whose numbers are exact";
         diagnostic::of_file(&shown, &problem, help, coloured).rendered
     })?;

@@ -4,6 +4,7 @@
 //! is taken from the guide.
 
 use liouville::case::{Case, Problem, SYSTEM_NAMES, TABLE_ROWS, claim_keys};
+use liouville::claim::ValueShape;
 use serde_json::{Map, Value, json};
 
 use super::CommandOutput;
@@ -18,51 +19,20 @@ const GUIDE: &str = concat!(
 /// A key that no table has.
 const UNKNOWN: &str = "schema-probe";
 
-/// Keys whose values are tables.
-const TABLES: [&str; 17] = [
-    "symmetry",
-    "reversor",
-    "map",
-    "field",
-    "fixed-point",
-    "no-density-near",
-    "symmetry-field",
-    "commutator",
-    "lax",
-    "form",
-    "no-integral",
-    "no-density",
-    "no-invariant-relation",
-    "forces",
-    "chart",
-    "inputs",
-    "bracket",
-];
-
-/// Keys whose values are lists, or one text.
-const LISTS: [&str; 22] = [
-    "independent",
-    "involution",
-    "compatible",
-    "bracket",
-    "spectrum",
-    "characteristic-polynomial",
-    "contacts",
-    "start",
-    "starts",
-    "periodic-point",
-    "point",
-    "integrals",
-    "multipliers",
-    "quasi-velocities",
-    "constraints",
-    "equations",
-    "pairs",
-    "lines",
-    "note",
-    "limit-cycle",
-    "gyrostat",
-    "state",
+/// Keys of tables of the file whose values are more than a text.
+const SHAPES: [(&str, ValueShape); 12] = [
+    ("gyrostat", ValueShape::List),
+    ("bracket", ValueShape::ListOrTable),
+    ("pairs", ValueShape::List),
+    ("constraints", ValueShape::List),
+    ("quasi-velocities", ValueShape::List),
+    ("multipliers", ValueShape::List),
+    ("forces", ValueShape::Table),
+    ("equations", ValueShape::List),
+    ("chart", ValueShape::Table),
+    ("starts", ValueShape::List),
+    ("lines", ValueShape::List),
+    ("field", ValueShape::Table),
 ];
 
 pub fn run() -> Result<CommandOutput, String> {
@@ -134,19 +104,28 @@ fn of_column() -> Value {
 
 /// A table that has these keys and no others.
 fn closed(keys: Vec<String>) -> Value {
+    let of_key = |key: &String| value(key, &[ValueShape::of(key, &SHAPES)]);
     let properties: Map<String, Value> =
-        keys.iter().map(|key| (key.clone(), explained(key, value(key)))).collect();
+        keys.iter().map(|key| (key.clone(), explained(key, of_key(key)))).collect();
     json!({ "type": "object", "properties": properties, "additionalProperties": false })
 }
 
 /// A claim: one statement, and what may stand beside it.
 fn claim() -> Value {
     let (mut properties, mut required) = (Map::new(), Vec::new());
-    for (statement, companions) in claim_keys() {
+    // A key of several statements takes what any of them takes.
+    let mut shapes: Vec<(&str, Vec<ValueShape>)> = Vec::new();
+    for (statement, keys) in claim_keys() {
         required.push(json!({ "required": [statement] }));
-        for key in std::iter::once(&statement).chain(&companions) {
-            properties.insert(key.to_string(), explained(key, value(key)));
+        for (key, shape) in keys {
+            match shapes.iter_mut().find(|(known, _)| *known == key) {
+                Some((_, all)) => all.push(shape),
+                None => shapes.push((key, vec![shape])),
+            }
         }
+    }
+    for (key, shapes) in shapes {
+        properties.insert(key.to_string(), explained(key, value(key, &shapes)));
     }
     json!({
         "type": "object",
@@ -156,13 +135,13 @@ fn claim() -> Value {
     })
 }
 
-/// Schema of the value of a key.
-fn value(key: &str) -> Value {
+/// Schema of the value of a key that has one of these shapes.
+fn value(key: &str, shapes: &[ValueShape]) -> Value {
     let mut kinds = vec!["string", "number"];
-    if LISTS.contains(&key) {
+    if shapes.iter().any(|own| matches!(own, ValueShape::List | ValueShape::ListOrTable)) {
         kinds.push("array");
     }
-    if TABLES.contains(&key) || matches!(key, "state" | "equals" | "parameters") {
+    if shapes.iter().any(|own| matches!(own, ValueShape::Table | ValueShape::ListOrTable)) {
         kinds.push("object");
     }
     match key {
@@ -238,6 +217,8 @@ mod values;
 #[cfg(test)]
 mod tests {
     use super::*;
+    use liouville::claim::ClaimKind;
+    use liouville::claim::absence::Absence;
     use liouville_catalogue::CATALOGUE;
 
     /// Where a value breaks the schema, if anywhere.
@@ -302,6 +283,29 @@ mod tests {
         for (name, text) in CATALOGUE {
             let value = values::read(text);
             assert_eq!(broken(&schema, &value, name), None);
+        }
+    }
+
+    #[test]
+    fn values_have_the_shapes_of_their_statements() {
+        let schema = schema();
+        let claims = &schema["properties"]["claim"]["items"]["properties"];
+        let takes = |key: &str, kind: &str| {
+            claims[key]["type"].as_array().is_some_and(|all| all.iter().any(|own| own == kind))
+        };
+        for key in ["involution", "independent", "spectrum", "integrals", "point", "note"] {
+            assert!(takes(key, "array") && !takes(key, "object"), "{key} is a list");
+        }
+        for key in ["symmetry", "lax", "equals", "field", "no-integral", "parameters"] {
+            assert!(takes(key, "object") && !takes(key, "array"), "{key} is a table");
+        }
+        assert!(takes("state", "array") && takes("state", "object"), "a list or a table");
+        assert!(!takes("integral", "array") && !takes("integral", "object"), "a formula");
+        for (statement, keys) in claim_keys() {
+            let shapes = ClaimKind::shapes(statement).iter().chain(Absence::shapes(statement));
+            for (key, _) in shapes {
+                assert!(keys.iter().any(|(own, _)| own == key), "{statement} has no {key}");
+            }
         }
     }
 

@@ -1,5 +1,6 @@
 //! Report of `chart`: counts of motions in each class over a plane, and the plot.
 
+use clap::ValueEnum;
 use serde_json::{Value, json};
 
 use liouville_draw::{
@@ -46,13 +47,13 @@ const CELLS: [(PlanePoint, Paint); 9] = [
 ];
 
 /// Meaning of the colours of a chart.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Colours {
-    /// Class of the motion.
+    /// Class of the motion
     Class,
-    /// Largest Lyapunov exponent.
+    /// Largest Lyapunov exponent
     Exponent,
-    /// Mean divergence.
+    /// Mean divergence
     Divergence,
 }
 

@@ -316,7 +316,7 @@ fn a_lagrangian_without_constraints_is_a_lagrangian_system() {
         .replace("m*a'²/2", "m*a'²/2 + b'²/2");
     let found = surveyed(&format!("system = 'nonholonomic'\n{bound}"));
     assert_eq!(found.system, "nonholonomic");
-    assert!(found.description.equations[0].contains("reactions"), "{:?}", found.description);
+    assert!(found.description.equations[0].text.contains("reactions"), "{:?}", found.description);
 }
 
 #[test]

@@ -12,7 +12,7 @@
 use super::{Choice, Expr, Fault, Graph, Member, Node, Points, Step};
 use crate::number::prime::{Modulus, Prime, UNDEFINED, is_prime};
 use crate::number::rational::Rational;
-use crate::number::{BinaryOperation, Domain, UnaryFunction};
+use crate::number::{BinaryOperation, Domain, GOLDEN, UnaryFunction, scrambled};
 
 /// Number of points, half of them modulo each of two primes.
 const FINGERPRINT_POINTS: usize = 64;
@@ -267,12 +267,9 @@ fn moduli() -> [Modulus; FINGERPRINT_POINTS] {
     std::array::from_fn(|lane| both[lane / HALF])
 }
 
-/// Mixes two numbers into one (Steele, Lea, Flood 2014: SplitMix64).
+/// Mixes two numbers into one.
 fn mixed(a: u64, b: u64) -> u64 {
-    let mut z = a.wrapping_mul(0x9E37_79B9_7F4A_7C15) ^ b;
-    z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-    z ^ (z >> 31)
+    scrambled(a.wrapping_mul(GOLDEN) ^ b)
 }
 
 /// Recovers the fraction with small parts whose image is x, by Euclid's algorithm (Wang 1981).

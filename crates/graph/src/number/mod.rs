@@ -16,8 +16,10 @@ pub mod mixed;
 pub mod prime;
 pub mod quadratic;
 pub mod rational;
+mod scramble;
 
 use rational::Rational;
+pub use scramble::{GOLDEN, scrambled};
 
 /// A function of one argument that a tape may contain.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

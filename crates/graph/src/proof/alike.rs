@@ -1,4 +1,5 @@
 //! Products of two values that have the same sign: (p − q)(F(p) − F(q)) for an increasing F, and p sin p for |p| ≤ π.
+//! Rule S6 of docs/soundness.md.
 
 use crate::graph::{Graph, Step};
 use crate::number::rational::Rational;

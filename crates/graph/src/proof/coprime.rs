@@ -7,7 +7,7 @@
 //! vanish nowhere where the quotients have values.
 
 use crate::graph::{Evaluator, Expr, Graph, Step, Tape};
-use crate::number::prime::{Modulus, Prime, UNDEFINED};
+use crate::number::prime::{CHECKS, Polynomial, Prime, PrimePolynomials, UNDEFINED};
 use crate::number::{BinaryOperation, UnaryFunction};
 
 use super::bounds::{Bounds, InputDistribution};
@@ -19,8 +19,6 @@ use super::trial::PRIMES;
 const LARGEST_DEGREE: f64 = 400.0;
 /// Largest height that is tried: bits of the sum of the absolute coefficients.
 const LARGEST_HEIGHT: f64 = 4000.0;
-/// Number of points of the line at which an interpolated quotient is checked.
-const CHECKS: usize = 4;
 
 /// Whether the values are polynomials in the inputs as they stand.
 pub fn are_polynomials(graph: &Graph, values: &[Expr]) -> bool {
@@ -99,134 +97,32 @@ fn are_coprime_on_line(graph: &Graph, values: &[Expr], degree: usize, rng: &mut 
             column.push(block[0]);
         }
     }
-    let quotient = |column: &Vec<u64>| match polynomial {
-        true => Some((interpolated(m, &points, column), vec![m.one()])),
-        false => quotient(m, &points, column, degree),
+    let ring = PrimePolynomials(modulus);
+    let quotient = |column: &Vec<u64>| -> Option<(Polynomial, Polynomial)> {
+        let points: Vec<(u64, u64)> = points.iter().copied().zip(column.iter().copied()).collect();
+        match polynomial {
+            true => Some((ring.through(&points).0, vec![m.one()])),
+            false => ring.fraction(&points),
+        }
     };
     let Some(quotients) = columns.iter().map(quotient).collect::<Option<Vec<_>>>() else {
         return false;
     };
     // Use the product of all denominators.
-    let product = |a: &[u64], b: &[u64]| multiplied(m, a, b);
+    let product = |a: &[u64], b: &[u64]| ring.product(a, b);
     let below = quotients.iter().fold(vec![m.one()], |all, (_, below)| product(&all, below));
     let above = quotients.iter().enumerate().map(|(own, (above, _))| {
         let others = quotients.iter().enumerate().filter(|(k, _)| *k != own);
         others.fold(above.clone(), |all, (_, (_, below))| product(&all, below))
     });
-    let mut common = above.fold(Vec::new(), |a, b| common_divisor(m, a, b));
+    let mut common = above.fold(Vec::new(), |a, b| ring.common(&a, &b));
     loop {
-        let shared = common_divisor(m, common.clone(), below.clone());
+        let shared = ring.common(&common, &below);
         if shared.len() <= 1 || common.is_empty() {
             return common.len() == 1;
         }
-        common = divided(m, common, &shared).0;
+        common = ring.divided(&common, &shared).0;
     }
-}
-
-/// Finds the quotient of polynomials of bounded degree with these values, if there is one.
-fn quotient(
-    m: &Modulus,
-    points: &[u64],
-    values: &[u64],
-    degree: usize,
-) -> Option<(Vec<u64>, Vec<u64>)> {
-    let used = 2 * degree + 2;
-    let interpolant = interpolated(m, &points[..used], &values[..used]);
-    // Remainders of Π(t − tᵢ) by the interpolant, with the multipliers of the interpolant.
-    let vanishing = points[..used]
-        .iter()
-        .fold(vec![m.one()], |all, t| multiplied(m, &all, &[m.sub(0, *t), m.one()]));
-    let (mut before, mut last) = ((vanishing, Vec::new()), (interpolant, vec![m.one()]));
-    while last.0.len() > degree + 1 {
-        let (quotient, rest) = divided(m, before.0, &last.0);
-        let multiplier = subtracted(m, &before.1, &multiplied(m, &quotient, &last.1));
-        (before, last) = (last, (rest, multiplier));
-    }
-    let (above, below) = last;
-    let common = common_divisor(m, above.clone(), below.clone());
-    let (above, below) = (divided(m, above, &common).0, divided(m, below, &common).0);
-    let holds = |(t, value): (&u64, &u64)| at(m, &above, *t) == m.mul(*value, at(m, &below, *t));
-    points.iter().zip(values).all(holds).then_some((above, below))
-}
-
-fn at(m: &Modulus, polynomial: &[u64], t: u64) -> u64 {
-    polynomial.iter().rev().fold(0, |sum, coefficient| m.add(m.mul(sum, t), *coefficient))
-}
-
-fn multiplied(m: &Modulus, a: &[u64], b: &[u64]) -> Vec<u64> {
-    if a.is_empty() || b.is_empty() {
-        return Vec::new();
-    }
-    let mut product = vec![0; a.len() + b.len() - 1];
-    for (i, x) in a.iter().enumerate() {
-        for (j, y) in b.iter().enumerate() {
-            product[i + j] = m.add(product[i + j], m.mul(*x, *y));
-        }
-    }
-    trimmed(product)
-}
-
-fn subtracted(m: &Modulus, a: &[u64], b: &[u64]) -> Vec<u64> {
-    let at = |x: &[u64], k: usize| x.get(k).copied().unwrap_or(0);
-    trimmed((0..a.len().max(b.len())).map(|k| m.sub(at(a, k), at(b, k))).collect())
-}
-
-/// Divides with remainder by a nonzero polynomial.
-fn divided(m: &Modulus, mut a: Vec<u64>, b: &[u64]) -> (Vec<u64>, Vec<u64>) {
-    let inverse = b.last().map_or(0, |leading| m.inverse(*leading));
-    let mut quotient = vec![0; (a.len() + 1).saturating_sub(b.len())];
-    while a.len() >= b.len() && !b.is_empty() && !a.is_empty() {
-        let factor = a.last().map_or(0, |last| m.mul(*last, inverse));
-        let shift = a.len() - b.len();
-        quotient[shift] = factor;
-        for (k, coefficient) in b.iter().enumerate() {
-            a[shift + k] = m.sub(a[shift + k], m.mul(factor, *coefficient));
-        }
-        a = trimmed(a);
-    }
-    (trimmed(quotient), a)
-}
-
-/// Returns the coefficients of the polynomial with these values, constant term first.
-fn interpolated(m: &Modulus, points: &[u64], values: &[u64]) -> Vec<u64> {
-    // Newton's divided differences, multiplied out from the last one.
-    let mut differences = values.to_vec();
-    for order in 1..points.len() {
-        for k in (order..points.len()).rev() {
-            let rise = m.sub(differences[k], differences[k - 1]);
-            let run = m.sub(points[k], points[k - order]);
-            differences[k] = m.mul(rise, m.inverse(run));
-        }
-    }
-    let mut polynomial = Vec::new();
-    for (difference, point) in differences.iter().zip(points).rev() {
-        // p (t − point) + difference
-        let mut next = vec![0; polynomial.len() + 1];
-        for (k, coefficient) in polynomial.iter().enumerate() {
-            next[k + 1] = m.add(next[k + 1], *coefficient);
-            next[k] = m.sub(next[k], m.mul(*coefficient, *point));
-        }
-        next[0] = m.add(next[0], *difference);
-        polynomial = next;
-    }
-    trimmed(polynomial)
-}
-
-fn trimmed(mut polynomial: Vec<u64>) -> Vec<u64> {
-    while polynomial.last() == Some(&0) {
-        polynomial.pop();
-    }
-    polynomial
-}
-
-/// Computes a greatest common divisor by Euclid's algorithm; the zero polynomial has no
-/// coefficients.
-fn common_divisor(m: &Modulus, mut a: Vec<u64>, mut b: Vec<u64>) -> Vec<u64> {
-    while !b.is_empty() {
-        let (_, rest) = divided(m, a, &b);
-        (a, b) = (b, rest);
-    }
-    a
 }
 
 #[cfg(test)]

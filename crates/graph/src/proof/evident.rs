@@ -1,4 +1,5 @@
-//! Sums that are never negative, by their form or by the ranges, and the facts that they are.
+//! Sums that are never negative, by their form or by the ranges, and the facts that they are: rule S10 of
+//! docs/soundness.md.
 //!
 //! A root of a square becomes the modulus of a polynomial that is multiplied out, whose sign bounds
 //! may not show: x² + k² − 2ky + y². Written as x² + (k − y)² elsewhere in a claim its sign is

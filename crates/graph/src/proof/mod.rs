@@ -115,7 +115,7 @@ pub use polynomials::{PolynomialBounds, polynomial_bounds};
 pub use rationalised::{Rationalised, vanishing_root};
 pub use reconstruct::reconstruct;
 pub use rewrite::conditions;
-pub use rng::ProofRng;
+pub use rng::{ProofRng, ProofStream};
 pub use root_numbers::root_numbers;
 pub use trial::{Certificate, fewest};
 

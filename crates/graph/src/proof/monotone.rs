@@ -1,5 +1,6 @@
 //! Sums Σ (F_i(p) − F_i(q)) of increasing functions F_i, as x³ + x − y³ − y, which have the sign of p − q; and Σ (F_i(p) +
 //! F_i(q)) of odd ones, which have the sign of p + q.
+//! Rule S8 of docs/soundness.md.
 
 use crate::graph::{Graph, Step};
 use crate::number::rational::Rational;

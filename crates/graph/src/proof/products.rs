@@ -1,4 +1,4 @@
-//! Cells on which the signs of factors contradict each other.
+//! Cells on which the signs of factors contradict each other: rule S9 of docs/soundness.md.
 //!
 //! Facts are read as products of irreducible polynomials. X > 0 says that none of its factors is 0, and that an even
 //! number of those that occur an odd number of times is negative; so does Y ≥ 0 if all factors of Y occur in such an

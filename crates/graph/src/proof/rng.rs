@@ -40,6 +40,11 @@ pub enum ProofStream {
     Divisors = 12,
 }
 
+impl ProofStream {
+    /// Number of the last stream; those of other purposes have higher ones.
+    pub const LAST: u64 = Self::Divisors as u64;
+}
+
 /// Random numbers for tests in fields, disjoint from all streams of states.
 pub struct ProofRng(ChaCha8Rng);
 

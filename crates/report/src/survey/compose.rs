@@ -8,7 +8,7 @@ use liouville::case::Case;
 use liouville::verdict::CaseReport;
 use liouville_search::survey::{
     Description, HierarchyPlace, IntegralCount, Integrals, MeasureStatus, SearchOutcome, Survey,
-    TestedClaim,
+    SystemLine, TestedClaim,
 };
 
 /// Composes the document of a survey; `origin` names the program and the case.
@@ -40,16 +40,10 @@ pub fn document(survey: &Survey, origin: &str) -> Document {
 pub fn of_claims(case: &Case, report: &CaseReport, seed: u64, origin: &str) -> Document {
     let claims = report.claims.iter().map(|claim| TestedClaim::claimed(case, claim.clone()));
     let own = Description::of(case);
-    let lists = [("Given by:", own.functions), ("Equations of motion:", own.equations)];
-    let lists = lists.into_iter().chain([("Parameters:", own.parameters)]);
-    let stated = lists.filter(|(_, lines)| !lines.is_empty());
     let told = report.warnings.iter().map(|warning| text(format!("Warning: {warning}.")));
     let told = told.chain(report.remarks.iter().map(|remark| text(format!("Remark: {remark}."))));
     let sections = [
-        DocumentSection::new(
-            "The system",
-            stated.flat_map(|(words, lines)| [text(words), SectionBlock::List(lines)]).collect(),
-        ),
+        DocumentSection::new("The system", described(&own)),
         DocumentSection::new("What the case claims", blocks(&claims.collect::<Vec<_>>())),
         DocumentSection::new("Notes", told.collect()),
         DocumentSection::new("How to repeat this", repeated(seed, origin)),
@@ -80,20 +74,29 @@ fn standing(survey: &Survey) -> Vec<SectionBlock> {
     found
 }
 
-fn system(survey: &Survey) -> Vec<SectionBlock> {
-    let mut found = vec![text(survey.sentence.clone())];
-    found
-        .extend(survey.wireframe.as_ref().map(|frame| SectionBlock::Picture(picture::body(frame))));
-    let own = &survey.description;
+fn described(own: &Description) -> Vec<SectionBlock> {
+    let set = |lines: &[SystemLine]| {
+        let each = lines.iter().map(|line| (line.text.clone(), line.layout.clone()));
+        SectionBlock::Definitions(each.collect())
+    };
+    let mut found = Vec::new();
     if !own.functions.is_empty() {
-        found.extend([text("Given by:"), SectionBlock::List(own.functions.clone())]);
+        found.extend([text("Given by:"), set(&own.functions)]);
     }
     if !own.equations.is_empty() {
-        found.extend([text("Equations of motion:"), SectionBlock::List(own.equations.clone())]);
+        found.extend([text("Equations of motion:"), set(&own.equations)]);
     }
     if !own.parameters.is_empty() {
         found.extend([text("Parameters:"), SectionBlock::List(own.parameters.clone())]);
     }
+    found
+}
+
+fn system(survey: &Survey) -> Vec<SectionBlock> {
+    let mut found = vec![text(survey.sentence.clone())];
+    found
+        .extend(survey.wireframe.as_ref().map(|frame| SectionBlock::Picture(picture::body(frame))));
+    found.extend(described(&survey.description));
     let has_free = survey.parameters.iter().any(|one| one.value.is_none());
     if has_free {
         found.push(text(

@@ -29,6 +29,8 @@ pub enum SectionBlock {
     Text(String),
     /// Items of a list.
     List(Vec<String>),
+    /// Definitions, each as typed and, if it can be, as typeset.
+    Definitions(Vec<(String, Option<Layout>)>),
     /// Heading and lines that are folded away where the format allows it.
     Folded(&'static str, Vec<String>),
     /// A claim with its verdict.

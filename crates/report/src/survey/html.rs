@@ -37,6 +37,12 @@ fn set(block: &SectionBlock) -> String {
     match block {
         SectionBlock::Text(text) => format!("<p>{}</p>\n", escaped(text)),
         SectionBlock::List(items) => list(items),
+        SectionBlock::Definitions(lines) => {
+            itemised(lines.iter().map(|(text, layout)| match layout {
+                Some(layout) => format!("<span class=\"scroll\">{}</span>", formula(layout, false)),
+                None => escaped(text),
+            }))
+        }
         SectionBlock::Folded(what, lines) => folded(what, lines),
         SectionBlock::Entry(entry) => self::entry(entry),
         SectionBlock::Table { head, rows } => table(head, rows),
@@ -49,7 +55,11 @@ fn set(block: &SectionBlock) -> String {
 }
 
 fn list(items: &[String]) -> String {
-    let lines: String = items.iter().map(|item| format!("<li>{}</li>\n", escaped(item))).collect();
+    itemised(items.iter().map(|item| escaped(item)))
+}
+
+fn itemised(items: impl Iterator<Item = String>) -> String {
+    let lines: String = items.map(|item| format!("<li>{item}</li>\n")).collect();
     format!("<ul>\n{lines}</ul>\n")
 }
 

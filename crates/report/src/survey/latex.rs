@@ -25,6 +25,12 @@ fn set(block: &SectionBlock) -> String {
     match block {
         SectionBlock::Text(text) => format!("{}\n\n", escaped(text)),
         SectionBlock::List(items) => list(items),
+        SectionBlock::Definitions(lines) => {
+            itemised(lines.iter().map(|(text, layout)| match layout {
+                Some(layout) => format!("$ {} $", formula(layout)),
+                None => escaped(text),
+            }))
+        }
         SectionBlock::Folded(_, lines) => small(lines),
         SectionBlock::Entry(entry) => self::entry(entry),
         SectionBlock::Table { head, rows } => {
@@ -46,7 +52,11 @@ fn list(items: &[String]) -> String {
     if items.is_empty() {
         return String::new();
     }
-    let lines: String = items.iter().map(|item| format!("\\item {}\n", escaped(item))).collect();
+    itemised(items.iter().map(|item| escaped(item)))
+}
+
+fn itemised(items: impl Iterator<Item = String>) -> String {
+    let lines: String = items.map(|item| format!("\\item {item}\n")).collect();
     format!("\\begin{{itemize}}\n{lines}\\end{{itemize}}\n")
 }
 

@@ -2,6 +2,7 @@
 
 use super::document::{Document, JudgedClaim, SectionBlock, TableCell};
 use crate::typeset::latex::formula;
+use liouville::formula::Layout;
 
 /// Renders the whole document.
 pub fn render(document: &Document) -> String {
@@ -21,6 +22,13 @@ fn set(block: &SectionBlock) -> String {
         SectionBlock::List(items) => {
             let lines: String = items.iter().map(|item| format!("- {}\n", escaped(item))).collect();
             lines + "\n"
+        }
+        SectionBlock::Definitions(lines) => {
+            let line = |(text, layout): &(String, Option<Layout>)| match layout {
+                Some(layout) => format!("- ${}$\n", formula(layout)),
+                None => format!("- {}\n", escaped(text)),
+            };
+            lines.iter().map(line).collect::<String>() + "\n"
         }
         SectionBlock::Folded(what, lines) => folded(what, lines),
         SectionBlock::Entry(entry) => self::entry(entry),

@@ -123,7 +123,7 @@ impl GyroFamily {
 
     /// Whether a system takes gyroscopic terms, in place of a rotor.
     pub fn is_own(model: &Model) -> bool {
-        matches!(model.system, System::Lagrangian(_) | System::Hamiltonian(_) | System::Field(_))
+        model.system.is_field() || matches!(model.system, System::Lagrangian(_))
     }
 
     fn of_own_system(case: &Case, split: &GyroSplit) -> Result<Result<Self, String>, SearchError> {

@@ -52,7 +52,7 @@ impl AnsatzVariables {
                 });
                 (own.collect(), Ideal::None)
             }
-            (System::Field(_) | System::Hamiltonian(_), _) if model.level.is_empty() => {
+            (system, _) if system.is_field() && model.level.is_empty() => {
                 (vec![false; model.dimension()], Ideal::None)
             }
             _ => return None,

@@ -22,6 +22,7 @@ use liouville::formula::Formula;
 use liouville::graph::{Evaluator, Expr, Tape};
 use liouville::mechanics::Draw;
 use liouville::mechanics::calculus::DualPoint;
+use liouville::number::GOLDEN;
 use liouville::number::prime::{Modulus, Prime, UNDEFINED};
 use liouville::number::rational::Rational;
 use liouville::proof::{ProofRng, statement_seed};
@@ -183,8 +184,7 @@ impl LinearSystem {
             Some(kept) => *kept.get_or_init(drawn),
             None => drawn(),
         };
-        let mut rng =
-            SearchStream::Equations.under(self.seed ^ index.wrapping_mul(0x9e37_79b9_7f4a_7c15));
+        let mut rng = SearchStream::Equations.under(self.seed ^ index.wrapping_mul(GOLDEN));
         for _ in 0..MOST_DRAWS {
             let parameters = random(&self.parameters, &modulus, &mut rng);
             let mut at = PrimePoint { modulus, parameters, coordinates: Vec::new() };

@@ -2,11 +2,10 @@
 
 use rustc_hash::FxHashMap;
 
-use liouville::number::prime::Modulus;
+use liouville::number::prime::{Modulus, Polynomial, PrimePolynomials};
 
 use super::hypersurface::PrimeTerms;
 use super::ideal::degree;
-use super::polynomial::{Polynomial, PrimePolynomials};
 use crate::echelon::Echelon;
 use crate::series::exponents;
 use crate::{Halt, SearchError};

@@ -4,13 +4,13 @@
 //! set has these as roots. Its factors over the rational numbers belong to sets that are not divided further
 //! where the form separates all points.
 
-use liouville::number::prime::Modulus;
+use liouville::number::prime::{Modulus, Polynomial, PrimePolynomials};
 use liouville::proof::ProofRng;
 
 use super::bounded_ideal::BoundedIdeal;
+use super::factors::irreducible;
 use super::hypersurface::PrimeTerms;
 use super::joined::joined;
-use super::polynomial::{Polynomial, PrimePolynomials};
 
 /// Weights of the variables in the linear forms that are tried: powers of these.
 const RATIOS: [i64; 4] = [1, 2, -2, 3];
@@ -32,7 +32,7 @@ pub fn parts(
         if minimal.len() < 3 || ring.square_free(&minimal).len() < minimal.len() {
             return None;
         }
-        let images = ring.irreducible(&minimal, rng);
+        let images = irreducible(&ring, &minimal, rng);
         if images.len() > FACTORS {
             return None;
         }

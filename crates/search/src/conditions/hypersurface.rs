@@ -3,11 +3,10 @@
 use num_bigint::BigInt;
 
 use liouville::formula::{Formula, FormulaError, FormulaResult};
-use liouville::number::prime::Modulus;
+use liouville::number::prime::{Modulus, Polynomial, PrimePolynomials};
 use liouville::number::rational::Rational;
 use liouville::proof::reconstruct;
 
-use super::polynomial::{Polynomial, PrimePolynomials};
 use super::real::Terms;
 use super::relation::ScalarParameter;
 use super::simple::{SimpleEquation, SimpleEquations};

@@ -7,13 +7,12 @@
 
 use std::cell::Cell;
 
-use liouville::number::prime::Modulus;
+use liouville::number::prime::{Modulus, Polynomial, PrimePolynomials};
 use liouville::proof::{ProofRng, reconstruct};
 
 use super::bounded_ideal::BoundedIdeal;
 use super::decomposition;
 use super::hypersurface::{Hypersurface, PrimeTerms};
-use super::polynomial::{Polynomial, PrimePolynomials};
 use super::real::has_real_root;
 use super::relation::is_short;
 use crate::orbit::monomials;
@@ -195,7 +194,7 @@ impl ZeroSearch<'_> {
         let mut settled = is_settled.to_vec();
         settled[place] = true;
         let mut parts: Vec<Polynomial> = Vec::new();
-        for root in ring.roots(&rest, self.rng) {
+        for root in ring.roots(&rest) {
             if reconstruct(root, &self.m).filter(is_short).is_some() {
                 let factor = vec![self.m.sub(0, root), self.m.one()];
                 rest = ring.divided(&rest, &factor).0;

@@ -7,14 +7,13 @@
 
 use std::cell::Cell;
 
-use liouville::number::prime::Modulus;
+use liouville::number::prime::{Modulus, PrimePolynomials};
 use liouville::proof::ProofRng;
 
 use super::equations::ParametricEquations;
 use super::hypersurface::{Hypersurface, PrimeTerms};
 use super::ideal::{self, CommonZeros};
 use super::minors::determinant;
-use super::polynomial::PrimePolynomials;
 use super::quotient::without_common;
 use super::real::RealSearch;
 use super::residual::Residual;

@@ -1,11 +1,11 @@
 //! Zeros of a residual along random lines of parameters.
 
-use super::polynomial::{Polynomial, PrimePolynomials};
 use super::residual::{RESIDUAL_LANES, Residual, ResidualPoint};
 use crate::streams::SearchStream;
 use crate::{Effort, Halt, SearchError};
 use liouville::graph::Evaluator;
 use liouville::number::prime::{Modulus, Prime};
+use liouville::number::prime::{Polynomial, PrimePolynomials};
 use liouville::proof::ProofRng;
 
 /// Number of states whose residuals are compared.
@@ -139,7 +139,7 @@ impl<'r> Lines<'r> {
             return LineResult::Always;
         }
         let degree = common.len() - 1;
-        let roots = ring.roots(&common, &mut self.rng);
+        let roots = ring.roots(&common);
         let points = roots.into_iter().filter_map(|t| self.confirmed(&at(&m, &origin, &slope, t)));
         LineResult::Points(points.collect(), degree)
     }

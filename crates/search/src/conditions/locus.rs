@@ -8,14 +8,13 @@
 
 use std::ops::RangeInclusive;
 
-use liouville::number::prime::Modulus;
+use liouville::number::prime::{Modulus, Polynomial, PrimePolynomials};
 
 use super::equations::ParametricEquations;
-use super::factors::Bivariate;
+use super::factors::{Bivariate, bivariate_factors, irreducible, lifted};
 use super::hypersurface::{Hypersurface, PrimeTerms};
 use super::joined::joined;
 use super::parameter_line::ParameterLines;
-use super::polynomial::{Polynomial, PrimePolynomials};
 use super::variety::power;
 use crate::SearchError;
 use crate::echelon::Echelon;
@@ -131,7 +130,7 @@ fn is_special(
         for _ in 0..LINES {
             let (origin, slope) = (lines.random(), lines.random());
             let Some(restricted) = own.on_line(&m, &origin, &slope) else { break };
-            let Some(t) = ring.roots(&restricted, &mut lines.rng).first().copied() else {
+            let Some(t) = ring.roots(&restricted).first().copied() else {
                 continue;
             };
             let point = moved(&m, &origin, &slope, t);
@@ -240,7 +239,7 @@ impl<'p, 'l, 'e> Planes<'p, 'l, 'e> {
         if first.len() - 1 > DEGREE {
             return Ok(None);
         }
-        let factors = ring.irreducible(first, &mut self.lines.rng);
+        let factors = irreducible(&ring, first, &mut self.lines.rng);
         if dimension == 1 {
             let component =
                 |own: Polynomial| Component { degree: own.len() - 1, planes: vec![vec![own]] };
@@ -254,7 +253,7 @@ impl<'p, 'l, 'e> Planes<'p, 'l, 'e> {
             places.iter().fold(one.clone(), |all, place| ring.product(&all, &factors[*place]))
         };
         let starts: Vec<Polynomial> =
-            ring.bivariate_factors(&plane, &factors).into_iter().map(product).collect();
+            bivariate_factors(&ring, &plane, &factors).into_iter().map(product).collect();
         let mut components: Vec<Component> = starts
             .iter()
             .map(|own| Component { degree: own.len() - 1, planes: Vec::new() })
@@ -263,7 +262,7 @@ impl<'p, 'l, 'e> Planes<'p, 'l, 'e> {
         for number in 0..PLANES {
             let Some((direction, plane)) = next.take() else { break };
             self.directions.push(direction);
-            let lifted = ring.lifted(&plane, &starts);
+            let lifted = lifted(&ring, &plane, &starts);
             components.iter_mut().zip(lifted).for_each(|(own, plane)| own.planes.push(plane));
             // The plane of the whole space says everything.
             if dimension == 2 || !self.has_open(&components)? {

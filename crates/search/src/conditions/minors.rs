@@ -9,7 +9,6 @@ use std::cell::Cell;
 
 use rustc_hash::FxHashSet;
 
-use super::polynomial::{Polynomial, PrimePolynomials};
 use super::relation::{Explained, Round, ScalarParameter, equation, explained};
 use crate::budget::Budget;
 use crate::echelon::Echelon;
@@ -22,7 +21,7 @@ use crate::streams::SearchStream;
 use crate::{Effort, Halt, SearchError};
 use liouville::case::Case;
 use liouville::mechanics::{Draw, ParameterOrigin, SamplerSpec};
-use liouville::number::prime::Modulus;
+use liouville::number::prime::{Modulus, Polynomial, PrimePolynomials};
 use liouville::proof::{ProofRng, root_numbers};
 
 /// Number of points whose minors are compared.
@@ -224,7 +223,7 @@ impl<'l> Minors<'l> {
             common = ring.common(&common, &numerator);
             dimension = dimension.min(own);
         }
-        let candidates = ring.roots(&common, &mut self.rng);
+        let candidates = ring.roots(&common);
         let distinct = ring.square_free(&common).len().saturating_sub(1);
         let outside = distinct.saturating_sub(candidates.len());
         let mut found = Vec::new();

@@ -57,7 +57,6 @@ mod motion;
 mod parameter_line;
 mod pencil;
 mod points;
-mod polynomial;
 mod quotient;
 mod real;
 mod relation;

@@ -3,12 +3,11 @@
 //! Each is a root of every maximal minor of the equations for the coefficients. Two minors, of
 //! different states and of different combinations of columns, have no other roots in common.
 
-use liouville::number::prime::Modulus;
+use liouville::number::prime::{Modulus, Polynomial, PrimePolynomials};
 use liouville::proof::ProofRng;
 
 use super::equations::ParametricEquations;
 use super::pencil::{self, SquareMatrix};
-use super::polynomial::{Polynomial, PrimePolynomials};
 use crate::SearchError;
 use crate::ansatz::system::PrimePoint;
 use crate::budget::STEPS;

@@ -4,9 +4,8 @@
 //! is the characteristic polynomial of the companion matrix of w^δ + w^(δ−1) C₀⁻¹C₁ + … + C₀⁻¹C_δ. By
 //! Hessenberg's form this takes about as long as ten determinants of numbers.
 
-use liouville::number::prime::Modulus;
+use liouville::number::prime::{Modulus, Polynomial, PrimePolynomials};
 
-use super::polynomial::{Polynomial, PrimePolynomials};
 use crate::{Halt, SearchError};
 
 /// A square matrix modulo a prime, row by row.

@@ -4,13 +4,12 @@
 //! denominator is 0 there. Over the rational numbers the points of a set that is not divided are conjugate, so
 //! that a field has values at all of them or at none.
 
-use liouville::number::prime::Modulus;
+use liouville::number::prime::{Modulus, PrimePolynomials};
 use liouville::proof::ProofRng;
 
 use super::bounded_ideal::BoundedIdeal;
 use super::hypersurface::{Hypersurface, PrimeTerms};
 use super::ideal::{degree, highest, used};
-use super::polynomial::PrimePolynomials;
 use crate::{Halt, SearchError};
 
 /// Number of random values that are tried for a variable.
@@ -93,7 +92,7 @@ impl PointSearch<'_> {
             return Ok(());
         }
         let (values, is_free) = match self.univariate(&generators, place)? {
-            Some(Some(own)) => (PrimePolynomials(self.m).roots(&own, self.rng), false),
+            Some(Some(own)) => (PrimePolynomials(self.m).roots(&own), false),
             Some(None) => ((0..TRIALS).map(|_| self.rng.element(&self.m)).collect(), true),
             None => return Ok(()),
         };

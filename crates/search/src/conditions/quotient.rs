@@ -2,12 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use liouville::number::prime::Modulus;
+use liouville::number::prime::{Modulus, Polynomial, PrimePolynomials};
 use liouville::proof::ProofRng;
 
 use super::hypersurface::PrimeTerms;
 use super::ideal::degree;
-use super::polynomial::{Polynomial, PrimePolynomials};
 use super::variety::power;
 use crate::echelon::Echelon;
 use crate::series::exponents;

@@ -2,9 +2,9 @@
 
 use std::fmt;
 
-use super::polynomial::PrimePolynomials;
 use super::real::has_real_root;
 use liouville::formula::exponent_text;
+use liouville::number::prime::PrimePolynomials;
 
 use liouville::number::prime::Modulus;
 use liouville::number::rational::Rational;

@@ -6,7 +6,6 @@
 //! eliminated, and the integrals are sought and proved.
 
 use liouville::case::Case;
-use liouville::mechanics::System;
 use liouville::verdict::is_filled;
 
 use super::ParameterCondition;
@@ -33,7 +32,7 @@ pub fn conditions(
     report: &mut SearchReport,
     progress: &mut dyn FnMut(&str),
 ) -> Result<(), SearchError> {
-    if !matches!(case.model.system, System::Field(_) | System::Hamiltonian(_)) {
+    if !case.model.system.is_field() {
         return Ok(());
     }
     let whole = SplitCase::of(case);

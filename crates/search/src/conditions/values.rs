@@ -9,6 +9,7 @@ use std::cell::Cell;
 
 use liouville::case::Case;
 use liouville::formula::Formula;
+use liouville::number::prime::{Polynomial, PrimePolynomials};
 use liouville::number::rational::Rational;
 use liouville::proof::ProofRng;
 use liouville::verdict::is_filled;
@@ -17,7 +18,6 @@ use super::ParameterCondition;
 use super::equations::ParametricEquations;
 use super::minors::determinant;
 use super::parameter_line::ENTRY;
-use super::polynomial::{Polynomial, PrimePolynomials};
 use super::relation::{
     Relation, Round, ScalarParameter, explained, of_irrational, unexplained, unfilled,
     without_factors, written,
@@ -272,9 +272,7 @@ impl OneParameter<'_> {
             let Some(general) = self.equations.nullity(&base)? else { continue };
             let image: Option<Polynomial> = polynomial.iter().map(|own| m.rational(own)).collect();
             let Some(image) = image else { continue };
-            let seed = self.equations.effort.options.seed.wrapping_add(200 + prime);
-            let mut rng = SearchStream::Minors.under(seed);
-            let roots = PrimePolynomials(m).roots(&image, &mut rng);
+            let roots = PrimePolynomials(m).roots(&image);
             for value in &roots {
                 self.equations.effort.halt.check()?;
                 if self.equations.nullity(&self.with(&base, *value))?.is_none_or(|n| n <= general) {
@@ -318,7 +316,7 @@ impl OneParameter<'_> {
             }
             found.clear();
             rest.clone_from(&common);
-            for value in ring.roots(&common, &mut rng) {
+            for value in ring.roots(&common) {
                 self.equations.effort.halt.check()?;
                 // Without a state the field has no integrals there either.
                 if self.equations.nullity(&self.with(base, value))?.is_some_and(|own| own > general)

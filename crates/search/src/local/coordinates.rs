@@ -71,7 +71,7 @@ impl Coordinates {
 
     /// Whether a system has velocities that may be known: fields and Hamilton's equations have none.
     pub fn are_expected(system: &System) -> bool {
-        !matches!(system, System::Field(_) | System::Hamiltonian(_))
+        !system.is_field()
     }
 
     /// Components of the state as given positions, and all others as velocities.

@@ -10,6 +10,8 @@
 //! equations takes the place of the line: polynomials of degree n times D^n are polynomials of degree
 //! 2n in t.
 
+use liouville::number::prime::PrimePolynomials;
+
 use super::super::SearchError;
 use super::super::ansatz::system::PrimePoint;
 use super::super::echelon::Echelon;
@@ -18,7 +20,6 @@ use super::determinants::determinants;
 use super::factor::RatedPolynomial;
 use super::monomials::MonomialSeries;
 use super::setting::{OrbitSetting, PrimePhasePoint, SPARE_ORDERS};
-use super::univariate::{gcd, interpolated, roots, without};
 
 /// Largest degree of a field in the state.
 const DEGREE: usize = 24;
@@ -103,6 +104,11 @@ impl<'s, 'c> RandomLine<'s, 'c> {
         }
     }
 
+    /// Polynomials on the line.
+    fn ring(&self) -> PrimePolynomials {
+        PrimePolynomials(self.at.modulus)
+    }
+
     /// Removes the zeros of the denominator, at which states are infinite.
     fn without_poles(&self, mut own: Vec<u64>) -> Result<Vec<u64>, SearchError> {
         let m = &self.at.modulus;
@@ -123,8 +129,8 @@ impl<'s, 'c> RandomLine<'s, 'c> {
         };
         let last = (self.order() * degree) as u64;
         let values: Option<Vec<u64>> = (0..=last).map(value).collect();
-        let halt = &self.setting.effort.halt;
-        values.map(|values| interpolated(m, &values, halt)).transpose()
+        let (ring, halt) = (self.ring(), &self.setting.effort.halt);
+        values.map(|values| ring.interpolated_unless(&values, &mut || halt.check())).transpose()
     }
 
     /// Removes all common factors with `other` from a polynomial on the line.
@@ -133,7 +139,8 @@ impl<'s, 'c> RandomLine<'s, 'c> {
         if other.iter().all(|x| *x == 0) {
             return Ok(own);
         }
-        without(&self.at.modulus, own, other, &self.setting.effort.halt)
+        let halt = &self.setting.effort.halt;
+        self.ring().without_unless(&own, other, &mut || halt.check())
     }
 
     /// Whether a polynomial has a factor that none of the others has.
@@ -172,8 +179,12 @@ impl<'s, 'c> RandomLine<'s, 'c> {
                 own.push(self.cleared(series[1], t, degree));
             }
         }
-        let halt = &self.setting.effort.halt;
-        rates.iter().map(|own| interpolated(m, own, halt)).collect::<Result<_, _>>().map(Some)
+        let (ring, halt) = (self.ring(), &self.setting.effort.halt);
+        rates
+            .iter()
+            .map(|own| ring.interpolated_unless(own, &mut || halt.check()))
+            .collect::<Result<_, _>>()
+            .map(Some)
     }
 
     /// Points of the line at which some variables of a field of this degree do not change, without the
@@ -184,13 +195,13 @@ impl<'s, 'c> RandomLine<'s, 'c> {
         degree: usize,
         known: &[RatedPolynomial],
     ) -> Result<Vec<PrimePhasePoint>, SearchError> {
-        let (m, halt) = (&self.at.modulus, &self.setting.effort.halt);
+        let (ring, halt) = (self.ring(), &self.setting.effort.halt);
         let Some(rates) = self.rates(self.order() * degree + 1, degree)? else {
             return Ok(Vec::new());
         };
         let mut common = Vec::new();
         for own in variables {
-            common = gcd(m, &common, &rates[*own], halt)?;
+            common = ring.common_unless(&common, &rates[*own], &mut || halt.check())?;
         }
         common = self.without_poles(common)?;
         for factor in known {
@@ -198,7 +209,8 @@ impl<'s, 'c> RandomLine<'s, 'c> {
                 common = self.without(common, &own)?;
             }
         }
-        Ok(roots(m, &common, halt)?.into_iter().map(|place| self.point(place)).collect())
+        let roots = ring.roots_unless(&common, &mut || halt.check())?;
+        Ok(roots.into_iter().map(|place| self.point(place)).collect())
     }
 
     fn rows(
@@ -221,7 +233,7 @@ impl<'s, 'c> RandomLine<'s, 'c> {
         degree: usize,
         known: &[RatedPolynomial],
     ) -> Result<SpecialPlaces, SearchError> {
-        let (m, halt) = (self.at.modulus, &self.setting.effort.halt);
+        let (m, ring, halt) = (self.at.modulus, self.ring(), &self.setting.effort.halt);
         let none = SpecialPlaces { is_whole: true, ..SpecialPlaces::default() };
         let all = MonomialSeries::of(monomials);
         let Some(generic) = self.reduced(m.integer(1 << 40), &all)? else { return Ok(none) };
@@ -249,17 +261,18 @@ impl<'s, 'c> RandomLine<'s, 'c> {
             first.push(self.cleared(a, m.integer(t), degrees[0]));
             second.push(self.cleared(b, m.integer(t), degrees[1]));
         }
-        let first = interpolated(&m, &first, halt)?;
-        let second = interpolated(&m, &second, halt)?;
+        let first = ring.interpolated_unless(&first, &mut || halt.check())?;
+        let second = ring.interpolated_unless(&second, &mut || halt.check())?;
         let is_full = rank == monomials.len() && !first.is_empty();
-        let mut rest = self.without_poles(gcd(&m, &first, &second, halt)?)?;
+        let mut rest =
+            self.without_poles(ring.common_unless(&first, &second, &mut || halt.check())?)?;
         for factor in known {
             if let Some(own) = self.restricted(factor)? {
                 rest = self.without(rest, &own)?;
             }
         }
         let mut found = Vec::new();
-        for place in roots(&m, &rest, halt)? {
+        for place in ring.roots_unless(&rest, &mut || halt.check())? {
             let factor = [m.sub(0, place), m.one()];
             rest = self.without(rest, &factor)?;
             let Some(echelon) = self.reduced(place, &all)? else { continue };

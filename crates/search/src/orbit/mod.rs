@@ -101,7 +101,6 @@ mod tangents;
 mod taylor;
 mod turned;
 mod unbound;
-mod univariate;
 mod weighted;
 
 use liouville::case::Case;
@@ -181,11 +180,10 @@ fn along(
     report: &mut SearchReport,
     progress: &mut dyn FnMut(&str),
 ) -> Result<(), SearchError> {
-    let is_field = match case.model.system {
-        System::Field(_) | System::Hamiltonian(_) => true,
-        System::Lagrangian(_) | System::Ball(_) => false,
-        _ => return Ok(()),
-    };
+    let is_field = case.model.system.is_field();
+    if !is_field && !matches!(case.model.system, System::Lagrangian(_) | System::Ball(_)) {
+        return Ok(());
+    }
     let mut divided = Vec::new();
     let mut is_extended = false;
     let is_done = |report: &SearchReport| has_told_all(case, report);
@@ -308,7 +306,7 @@ pub fn factors(
     effort: &Effort,
     further: &[Formula],
 ) -> Result<Vec<Formula>, SearchError> {
-    if !matches!(case.model.system, System::Field(_) | System::Hamiltonian(_)) {
+    if !case.model.system.is_field() {
         return Ok(Vec::new());
     }
     let Some(extension) = adjoin::extended(case, effort, further, &[], Vec::new())? else {

@@ -8,7 +8,7 @@
 use liouville::case::Case;
 use liouville::formula::{Formula, Type};
 use liouville::graph::record;
-use liouville::mechanics::{Draw, Phase, System};
+use liouville::mechanics::{Draw, Phase};
 use liouville::proof::{PolynomialBounds, polynomial_bounds, statement_seed};
 use liouville::verdict::Options;
 
@@ -113,9 +113,7 @@ impl Sizes {
             Draw::OneOf(values) => values.len() == 1,
             Draw::Sign => false,
         };
-        if !matches!(model.system, System::Field(_) | System::Hamiltonian(_))
-            || !model.level.is_empty()
-        {
+        if !model.system.is_field() || !model.level.is_empty() {
             return Ok(Err("the case is not a field without a level set".to_string()));
         }
         if !draws.iter().all(is_simple) {

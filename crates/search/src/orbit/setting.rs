@@ -4,6 +4,7 @@ use liouville::case::Case;
 use liouville::claim::LevelSubset;
 use liouville::graph::{Evaluator, Tape};
 use liouville::mechanics::Draw;
+use liouville::number::GOLDEN;
 use liouville::number::prime::{Modulus, Prime, UNDEFINED};
 use liouville::verdict::Sampler;
 
@@ -228,7 +229,7 @@ impl<'c> OrbitSetting<'c> {
 
     /// Makes choice `index` of the parameters in a given field.
     fn within(&self, modulus: Modulus, index: u64, is_small: bool) -> Option<PrimePoint> {
-        let seed = self.effort.options.seed ^ index.wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        let seed = self.effort.options.seed ^ index.wrapping_mul(GOLDEN);
         let mut rng = SearchStream::Orbits.under(seed);
         let own = &self.points.draws[..self.points.of_parameters];
         for _ in 0..TRIES {

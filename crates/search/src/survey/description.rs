@@ -1,147 +1,203 @@
 //! Description of the system: its functions, parameters and equations of motion, line by line.
 
 use liouville::case::Case;
-use liouville::formula::Formula;
-use liouville::mechanics::{BracketBlock, ParameterOrigin, Potential, Shape, Surface, System};
+use liouville::formula::{Formula, Layout, Symbol, Type};
+use liouville::mechanics::{
+    BracketBlock, Lagrangian, Meaning, Model, ParameterOrigin, Potential, Shape, Surface, System,
+    VariableRole,
+};
 use liouville::number::rational::Rational;
-use serde::Serialize;
+use serde::{Serialize, Serializer};
+
+/// A line of the description of a system; of a definition also as it is typeset.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SystemLine {
+    /// Text of the line, such as `h = R*|γ|`.
+    pub text: String,
+    /// The same typeset; `None` for words.
+    pub layout: Option<Layout>,
+}
+
+impl SystemLine {
+    fn words(text: impl Into<String>) -> Self {
+        Self { text: text.into(), layout: None }
+    }
+
+    /// Line that gives a name, or a function of an argument, a formula.
+    fn definition(model: &Model, name: &str, formula: &Formula) -> Self {
+        let names = |symbol: Symbol| model.vocabulary.entry(symbol).name.clone();
+        let (bare, argument) = match name.split_once('(') {
+            Some((bare, rest)) => (bare, rest.strip_suffix(')')),
+            None => (name, None),
+        };
+        let kind = formula.value_type();
+        let mut left = vec![Layout::name(bare, kind)];
+        left.extend(argument.map(|own| {
+            let kind = if own == "z" { Type::Scalar } else { Type::VECTOR };
+            Layout::Fenced("(", Box::new(Layout::name(own, kind)), ")")
+        }));
+        let layout = Layout::equation(Layout::Row(left), formula.layout(&names));
+        Self { text: format!("{name} = {}", formula.text()), layout: Some(layout) }
+    }
+}
+
+impl PartialEq<&str> for SystemLine {
+    fn eq(&self, other: &&str) -> bool {
+        self.text == *other
+    }
+}
+
+impl Serialize for SystemLine {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(&self.text)
+    }
+}
 
 /// Contents of a case that describe its system.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Description {
-    /// Functions and constants of the system, such as `h = R*|γ|`.
-    pub functions: Vec<String>,
+    /// Functions and constants of the system, and the abbreviations in them.
+    pub functions: Vec<SystemLine>,
     /// Parameters with their ranges or values.
     pub parameters: Vec<String>,
     /// Equations of motion, and those of the level set.
-    pub equations: Vec<String>,
+    pub equations: Vec<SystemLine>,
 }
 
 impl Description {
     /// Description of the system of a case.
     pub fn of(case: &Case) -> Self {
+        let model = &case.model;
         let mut own = Self { parameters: parameters(case), ..Self::default() };
-        match &case.model.system {
+        match &model.system {
             System::Rubber(_) | System::Spinning(_) => own.rolling(case),
             System::FlatBase(body) => {
-                own.function("m", Some(&body.mass));
-                own.function("I", Some(&body.inertia));
-                own.function("k", Some(&body.curvature));
-                own.function("z", Some(&body.height));
-                own.function("S", body.gyrostat.as_ref());
-                own.function("U", body.potential.as_ref());
-                own.equations.push(
-                    match body.potential {
-                        None => "Ĩω' = (Ĩω + S)×ω − m r×(ω×r') + λγ, with r = (r₁, r₂, z), γ = e₃",
-                        Some(_) => {
-                            "Ĩω' = (Ĩω + S)×ω − m r×(ω×r') + (∂U/∂r₂, −∂U/∂r₁, 0)/k + λγ, with \
-                             r = (r₁, r₂, z), γ = e₃"
-                        }
+                own.function(model, "m", Some(&body.mass));
+                own.function(model, "I", Some(&body.inertia));
+                own.function(model, "k", Some(&body.curvature));
+                own.function(model, "z", Some(&body.height));
+                own.function(model, "S", body.gyrostat.as_ref());
+                own.function(model, "U", body.potential.as_ref());
+                own.equations.push(SystemLine::words(match body.potential {
+                    None => "Ĩω' = (Ĩω + S)×ω − m r×(ω×r') + λγ, with r = (r₁, r₂, z), γ = e₃",
+                    Some(_) => {
+                        "Ĩω' = (Ĩω + S)×ω − m r×(ω×r') + (∂U/∂r₂, −∂U/∂r₁, 0)/k + λγ, with \
+                         r = (r₁, r₂, z), γ = e₃"
                     }
-                    .to_string(),
-                );
+                }));
             }
             System::Ball(ball) => {
                 match &ball.surface {
-                    Surface::Level(formula) => own.function("F(r)", Some(formula)),
+                    Surface::Level(formula) => own.function(model, "F(r)", Some(formula)),
                     Surface::Arbitrary(_) => {
-                        own.functions.push("F(r) is any smooth function".to_string());
+                        own.functions.push(SystemLine::words("F(r) is any smooth function"));
                     }
-                    Surface::Support(shape) => own.shape(shape),
+                    Surface::Support(shape) => own.shape(model, shape),
                 }
-                own.function("m", Some(&ball.mass));
-                own.function("R", Some(&ball.radius));
-                own.function("μ", Some(&ball.moment));
-                own.potential("U(r)", ball.potential.as_ref());
-                own.function("Ω", ball.rotation.as_ref());
+                own.function(model, "m", Some(&ball.mass));
+                own.function(model, "R", Some(&ball.radius));
+                own.function(model, "μ", Some(&ball.moment));
+                own.potential(model, "U(r)", ball.potential.as_ref());
+                own.function(model, "Ω", ball.rotation.as_ref());
                 let equation = "M' = moment of the forces and the reaction about the contact, with \
                                 M = μω + Dγ×(ω×γ), D = mR²; r' = R ω×γ without rotation";
-                own.equations.push(equation.to_string());
+                own.equations.push(SystemLine::words(equation));
             }
             System::Lagrangian(lagrangian) => {
-                own.function("T", Some(&lagrangian.kinetic));
-                own.function("U", lagrangian.potential.as_ref());
+                own.function(model, "T", Some(&lagrangian.kinetic));
+                own.function(model, "U", lagrangian.potential.as_ref());
                 for (component, force) in &lagrangian.forces {
                     let of = case.model.variable_of(*component);
                     let name = of.map_or(String::new(), |(variable, _)| variable.name.clone());
-                    own.functions.push(format!("force on {name} = {}", force.text()));
+                    own.functions
+                        .push(SystemLine::words(format!("force on {name} = {}", force.text())));
                 }
                 let equations = match (lagrangian.constraints.is_empty(), lagrangian.vakonomic) {
                     (true, _) => "Lagrange's equations",
                     (false, true) => "Lagrange's equations of T − U − Σ λᵢfᵢ",
                     (false, false) => "Lagrange's equations with reactions Σ μᵢ ∂fᵢ/∂q'",
                 };
-                own.equations.push(equations.to_string());
+                own.equations.push(SystemLine::words(equations));
+                own.carried(model, lagrangian);
             }
             System::Hamiltonian(own_function) => {
-                own.function("H", Some(&own_function.function));
-                let names: Vec<&str> =
-                    case.model.state.iter().map(|variable| variable.name.as_str()).collect();
-                for (row, blocks) in names.iter().zip(&own_function.blocks) {
-                    for (column, block) in names.iter().zip(blocks) {
+                own.function(model, "H", Some(&own_function.function));
+                for (variable, blocks) in model.state.iter().zip(&own_function.blocks) {
+                    let row = &variable.name;
+                    // Of two vectors the unit matrix.
+                    let unit = if variable.len() == 1 { "1" } else { "E" };
+                    for (column, block) in model.state.iter().zip(blocks) {
+                        let column = &column.name;
                         match block {
-                            Some(BracketBlock::Given(formula)) => own
-                                .functions
-                                .push(format!("{{{row},{column}}} = {}", formula.text())),
+                            Some(BracketBlock::Given(formula)) => {
+                                let text = format!("{{{row},{column}}} = {}", formula.text());
+                                own.functions.push(SystemLine::words(text));
+                            }
                             Some(BracketBlock::Unit) => {
-                                own.functions.push(format!("{{{row},{column}}} = E"));
+                                let text = format!("{{{row},{column}}} = {unit}");
+                                own.functions.push(SystemLine::words(text));
                             }
                             Some(BracketBlock::Opposite(_) | BracketBlock::OppositeUnit) | None => {
                             }
                         }
                     }
                 }
-                own.equations.push("x' = P ∂H/∂x".to_string());
+                own.equations.push(SystemLine::words("f' = {f,H} for each variable f"));
             }
             System::Field(rates) | System::Map(rates) => own.rates(case, rates),
         }
         own.further_rates(case);
         // An equation between vectors or matrices is several, and written once.
         let mut level: Vec<String> =
-            case.model.level.iter().map(|own| format!("level: {}", own.written())).collect();
+            model.level.iter().map(|own| format!("level: {}", own.written())).collect();
         level.dedup();
-        own.equations.extend(level);
+        own.equations.extend(level.into_iter().map(SystemLine::words));
+        own.abbreviations(model);
         own
     }
 
-    fn function(&mut self, name: &str, formula: Option<&Formula>) {
-        let text = formula.map(Formula::text).filter(|text| *text != name);
-        self.functions.extend(text.map(|text| format!("{name} = {text}")));
+    fn function(&mut self, model: &Model, name: &str, formula: Option<&Formula>) {
+        let own = formula.filter(|own| own.text() != name);
+        self.functions.extend(own.map(|own| SystemLine::definition(model, name, own)));
     }
 
-    fn potential(&mut self, name: &str, potential: Option<&Potential>) {
+    fn potential(&mut self, model: &Model, name: &str, potential: Option<&Potential>) {
         match potential {
-            Some(Potential::Formula(formula)) => self.function(name, Some(formula)),
+            Some(Potential::Formula(formula)) => self.function(model, name, Some(formula)),
             Some(Potential::Arbitrary(_)) => {
-                self.functions.push(format!("{name} is any smooth function"));
+                let text = format!("{name} is any smooth function");
+                self.functions.push(SystemLine::words(text));
             }
             None => {}
         }
     }
 
-    fn shape(&mut self, shape: &Shape) {
+    fn shape(&mut self, model: &Model, shape: &Shape) {
         match shape {
             Shape::Support(formula) | Shape::SupportOnSphere(formula) => {
-                self.function("h(γ)", Some(formula));
+                self.function(model, "h(γ)", Some(formula));
             }
-            Shape::Profile(formula) => self.function("p(z)", Some(formula)),
-            Shape::Contact(formula) => self.function("r(γ)", Some(formula)),
-            Shape::Arbitrary(_) => self.functions.push("h(γ) is any support function".to_string()),
+            Shape::Profile(formula) => self.function(model, "p(z)", Some(formula)),
+            Shape::Contact(formula) => self.function(model, "r(γ)", Some(formula)),
+            Shape::Arbitrary(_) => {
+                self.functions.push(SystemLine::words("h(γ) is any support function"));
+            }
             Shape::ArbitraryProfile(_) => {
-                self.functions.push("p(z) is any profile".to_string());
+                self.functions.push(SystemLine::words("p(z) is any profile"));
             }
         }
     }
 
     fn rolling(&mut self, case: &Case) {
-        let Some(body) = case.model.system.body() else { return };
-        self.shape(&body.shape);
-        self.function("m", Some(&body.mass));
-        self.function("I", Some(&body.inertia));
-        self.function("k", body.curvature.as_ref());
-        self.function("S", body.gyrostat.as_ref());
-        self.potential("U(γ)", body.potential.as_ref());
-        self.function("M_P", body.moment.as_ref());
+        let model = &case.model;
+        let Some(body) = model.system.body() else { return };
+        self.shape(model, &body.shape);
+        self.function(model, "m", Some(&body.mass));
+        self.function(model, "I", Some(&body.inertia));
+        self.function(model, "k", body.curvature.as_ref());
+        self.function(model, "S", body.gyrostat.as_ref());
+        self.potential(model, "U(γ)", body.potential.as_ref());
+        self.function(model, "M_P", body.moment.as_ref());
         let plus = |is_there: bool, text: &'static str| if is_there { text } else { "" };
         let rotor = match body.gyrostat.is_some() {
             true => "(Ĩω + S)×ω",
@@ -149,20 +205,20 @@ impl Description {
         };
         let forces = body.potential.is_some() || body.moment.is_some();
         let spins = matches!(case.model.system, System::Spinning(_));
-        self.equations.push(format!(
+        self.equations.push(SystemLine::words(format!(
             "Ĩω' = {rotor} − m r×(ω×r'){}{}",
             plus(forces, " + M_P"),
             plus(!spins, " + λγ")
-        ));
-        self.equations.push(match body.curvature {
-            Some(_) => "γ' = Γ⁻¹(γ×ω), Γ = E − k ∂r/∂γ".to_string(),
-            None => "γ' = γ×ω".to_string(),
-        });
-        self.equations.push(format!(
+        )));
+        self.equations.push(SystemLine::words(match body.curvature {
+            Some(_) => "γ' = Γ⁻¹(γ×ω), Γ = E − k ∂r/∂γ",
+            None => "γ' = γ×ω",
+        }));
+        self.equations.push(SystemLine::words(format!(
             "r = −∇h, Ĩ = I + m r²E − m r⊗r{}{}",
             plus(body.potential.is_some(), ", M_P = γ×Γ⁻ᵀ∂U/∂γ"),
             plus(!spins, ", λ such that (ω,γ)' = 0")
-        ));
+        )));
     }
 
     /// Adds the rates of the variables that the case adds to a system.
@@ -171,10 +227,48 @@ impl Description {
         let further = &case.model.state[case.model.own_variables()..];
         if rates.len() == further.len() {
             let pairs = further.iter().zip(rates);
-            self.equations.extend(
-                pairs.map(|(variable, rate)| format!("{}' = {}", variable.name, rate.text())),
-            );
+            self.equations.extend(pairs.map(|(variable, rate)| {
+                SystemLine::definition(&case.model, &format!("{}'", variable.name), rate)
+            }));
         }
+    }
+
+    /// Adds the rates of coordinates that are given by quasi-velocities.
+    fn carried(&mut self, model: &Model, lagrangian: &Lagrangian) {
+        for (variable, role) in model.state.iter().zip(&lagrangian.roles) {
+            let VariableRole::Carried(rates) = role else { continue };
+            for (place, rate) in rates.iter().enumerate() {
+                let name = match rates.len() {
+                    1 => variable.name.clone(),
+                    _ => variable.kind.component(&variable.name, place),
+                };
+                self.equations.push(SystemLine::definition(model, &format!("{name}'"), rate));
+            }
+        }
+    }
+
+    /// Adds what the abbreviations stand for that occur in the equations of motion or the level, each
+    /// before those that use it.
+    fn abbreviations(&mut self, model: &Model) {
+        let mut used = vec![false; model.abbreviations.len()];
+        for formula in model.functions() {
+            for entry in model.vocabulary.uses(formula, &model.abbreviations) {
+                if let Meaning::Abbreviation(index) = entry.meaning {
+                    used[index] = true;
+                }
+            }
+        }
+        let mut lines = Vec::new();
+        for (_, entry) in model.vocabulary.iter() {
+            let Meaning::Abbreviation(index) = entry.meaning else { continue };
+            if used.get(index) == Some(&true) {
+                let own = &model.abbreviations[index];
+                lines.push((index, SystemLine::definition(model, &entry.name, own)));
+            }
+        }
+        lines.sort_by_key(|(index, _)| *index);
+        lines.dedup_by_key(|(index, _)| *index);
+        self.functions.splice(0..0, lines.into_iter().map(|(_, line)| line));
     }
 
     fn rates(&mut self, case: &Case, rates: &[Formula]) {
@@ -189,7 +283,7 @@ impl Description {
                     true => variable.name.clone(),
                     false => variable.kind.component(&variable.name, place),
                 };
-                self.equations.push(format!("{name}' = {}", rate.text()));
+                self.equations.push(SystemLine::definition(&case.model, &format!("{name}'"), rate));
                 place += size.max(1);
             }
         }
@@ -256,18 +350,34 @@ mod tests {
         assert!(own.parameters.contains(&"a_g in one of 1, 2".to_string()), "{own:?}");
         assert!(own.parameters.contains(&"I in inertia(0.5..5)".to_string()), "{own:?}");
         assert_eq!(own.equations[0], "Ĩω' = Ĩω×ω − m r×(ω×r') + M_P + λγ");
-        assert!(own.equations.contains(&"level: |γ| = 1".to_string()), "{own:?}");
+        assert!(own.equations.iter().any(|one| *one == "level: |γ| = 1"), "{own:?}");
         let text = text.replace("shape = 'ball'", "shape = 'ball'\nframe = 'Q'\ntrack = 'X'");
         let full = Description::of(&Case::parse(&text, &[]).expect("a case"));
         for rate in ["Q' = hat(ω)ᵀ*Q", "X' = Qᵀ*r'"] {
-            assert!(full.equations.iter().any(|one| one == rate), "{rate}: {full:?}");
+            assert!(full.equations.iter().any(|one| *one == rate), "{rate}: {full:?}");
         }
         let text = "title = 't'\n[state]\nx = '-1..1'\ny = '-1..1'\n[field]\n\"x'\" = 'y'\n\"y'\" = '−x'\n";
         let own = Description::of(&Case::parse(text, &[]).expect("a case"));
         assert_eq!(own.equations, ["x' = y", "y' = −x"]);
+        let text = "title = 't'\n[state]\nx = '-1..1'\np = '-1..1'\n[hamiltonian]\nfunction = 'p^2'\npairs = [['x', 'p']]\n";
+        let own = Description::of(&Case::parse(text, &[]).expect("a case"));
+        assert_eq!(own.functions, ["H = p^2", "{x,p} = 1"]);
         let text = "title = 't'\n[state]\nq = 'vector(2, -1..1)'\nw = 'vector(2, -1..1)'\n[field]\n\
                     \"q[1]'\" = 'w1'\n\"q[2]'\" = '−w2'\n\"w'\" = '0*w'\n[level]\nequations = ['w = [1, 2]']\n";
         let own = Description::of(&Case::parse(text, &[]).expect("a case"));
         assert_eq!(own.equations, ["q1' = w1", "q2' = −w2", "w' = 0*w", "level: w = [1, 2]"]);
+    }
+
+    #[test]
+    fn abbreviations_and_rates_of_coordinates_are_stated() {
+        let text = "title = 't'\nsystem = 'nonholonomic'\n[parameters]\nm = '1..2'\n[let]\nW = 'V + w'\n\
+                    V = 'v^2'\nunused = 'v^3'\n[state]\nx = '-1..1'\nf = '-1..1'\nv = '-1..1'\nw = '-1..1'\n\
+                    [lagrangian]\nkinetic = 'm*W/2 + w^2'\nquasi-velocities = ['v', 'w']\n[field]\n\
+                    \"x'\" = 'v*cos(f)'\n\"f'\" = 'w'\n";
+        let own = Description::of(&Case::parse(text, &[]).expect("a case"));
+        let texts: Vec<&str> = own.functions.iter().map(|line| line.text.as_str()).collect();
+        assert_eq!(texts, ["V = v^2", "W = V + w", "T = m*W/2 + w^2"]);
+        assert!(own.functions.iter().all(|line| line.layout.is_some()), "all are typeset");
+        assert!(own.equations.iter().any(|one| *one == "x' = v*cos(f)"), "{own:?}");
     }
 }

@@ -27,14 +27,14 @@ pub fn form(
     density: &TestedClaim,
 ) -> Result<Vec<TestedClaim>, JudgeError> {
     let System::Rubber(body) = &case.model.system else { return Ok(Vec::new()) };
-    if body.gyrostat.is_some() || body.moment.is_some() || !case.model.extension.is_empty() {
+    if body.0.gyrostat.is_some() || body.0.moment.is_some() || !case.model.extension.is_empty() {
         return Ok(Vec::new());
     }
     let (mut names, formulas) = merged(bindings, &[density]);
     let mut add = |name: &str, formula: String| names.push(define(name, &formula));
-    let volume = if body.curvature.is_some() { "*D_T" } else { "" };
+    let volume = if body.0.curvature.is_some() { "*D_T" } else { "" };
     add("N", format!("({})/(det(Ĩ)*(γ,Ĩ⁻¹*γ){volume})", formulas[0]));
-    let energy = match body.curvature {
+    let energy = match body.0.curvature {
         None => {
             // The last term vanishes on the level; with it M and γ are coordinates off the level
             // too.
@@ -47,7 +47,7 @@ pub fn form(
             "((y,Ĩ⁻¹*y) − (y,Ĩ⁻¹*γ)²/(γ,Ĩ⁻¹*γ))/(2*N²)"
         }
     };
-    let potential = if body.potential.is_some() { " + U" } else { "" };
+    let potential = if body.0.potential.is_some() { " + U" } else { "" };
     let claims = vec![
         Claim::hamiltonian(ClaimEntry::Text(format!("{energy}{potential}")))
             .with("multiplier", "N")

@@ -50,7 +50,7 @@ use liouville_flow::observe::evidence_against_density;
 
 pub use by_value::ValuePlace;
 pub use definitions::Definition;
-pub use description::Description;
+pub use description::{Description, SystemLine};
 pub use geometry::GeometryFact;
 pub use hierarchy::{HierarchyClass, HierarchyPlace, Integrals, MeasureStatus};
 pub use independence::IntegralCount;

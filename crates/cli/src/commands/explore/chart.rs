@@ -3,7 +3,7 @@
 use crate::parts::{Form, Identity, Job, json_line, json_unit};
 use crate::report::chart::{self, ChartReport, Colours};
 use crate::report::facts;
-use clap::{Args, ValueEnum};
+use clap::Args;
 use liouville::case::Case;
 use liouville::mechanics::ParameterOrigin;
 use liouville::part::Part;
@@ -49,35 +49,14 @@ pub struct ChartArgs {
     #[arg(long, value_name = "STATE", conflicts_with = "start")]
     pub state: Option<String>,
     /// Colours of the picture: classes, or values with a colour bar
-    #[arg(long, value_enum, default_value_t = Colour::Class)]
-    pub colour: Colour,
+    #[arg(long, value_enum, default_value_t = Colours::Class)]
+    pub colour: Colours,
     #[command(flatten)]
     pub ink: Ink,
     #[command(flatten)]
     pub share: Share,
     #[command(flatten)]
     pub threads: Threads,
-}
-
-/// Meaning of the colours of a chart.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub enum Colour {
-    /// Class of the motion
-    Class,
-    /// Largest Lyapunov exponent
-    Exponent,
-    /// Mean divergence
-    Divergence,
-}
-
-impl Colour {
-    fn of(self) -> Colours {
-        match self {
-            Self::Class => Colours::Class,
-            Self::Exponent => Colours::Exponent,
-            Self::Divergence => Colours::Divergence,
-        }
-    }
 }
 
 /// Limit on the motions along an axis.
@@ -212,7 +191,7 @@ impl Job for ChartJob {
             || report.json().map(|text| text + "\n").map_err(|error| format!("error: {error}"));
         let picture = || {
             let own = [own(case, request, 0), own(case, request, 1)];
-            (caption(case, request, names), vec![report.plot(options.colour.of(), own)])
+            (caption(case, request, names), vec![report.plot(options.colour, own)])
         };
         options.ink.save(
             out.as_ref(),

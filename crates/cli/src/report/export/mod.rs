@@ -13,6 +13,7 @@ mod rust;
 mod tangents;
 mod target;
 
+use clap::ValueEnum;
 use liouville::case::Case;
 use liouville::formula::Type;
 use liouville::graph::Step;
@@ -27,25 +28,25 @@ use target::Target;
 const REQUIRED: &str = "No value where this has none";
 
 /// A language of the exported code.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Language {
-    /// Python with `math`, in doubles.
+    /// Python with `math`, in doubles
     Python,
-    /// Python with SymPy, exact.
+    /// Python with SymPy, exact
     Sympy,
-    /// Julia, in doubles.
+    /// Julia, in doubles
     Julia,
-    /// MATLAB or Octave, in doubles.
+    /// MATLAB or Octave, in doubles
     Matlab,
-    /// Mathematica, exact.
+    /// Mathematica, exact
     Mathematica,
-    /// Maple, exact.
+    /// Maple, exact
     Maple,
-    /// C99, in doubles.
+    /// C99, in doubles
     C,
-    /// Rust, in doubles.
+    /// Rust, in doubles
     Rust,
-    /// LaTeX with amsmath.
+    /// LaTeX, a document
     Latex,
 }
 

@@ -45,6 +45,9 @@ fn set(block: &SectionBlock, style: PageStyle) -> String {
         SectionBlock::List(items) => {
             items.iter().map(|item| wrapped(item, "  - ", "    ", style.width)).collect()
         }
+        SectionBlock::Definitions(lines) => {
+            lines.iter().map(|(text, _)| wrapped(text, "  - ", "    ", style.width)).collect()
+        }
         SectionBlock::Folded(..) if !style.verbose => String::new(),
         SectionBlock::Folded(_, lines) => {
             lines.iter().map(|line| wrapped(line, "  | ", "  | ", style.width)).collect()

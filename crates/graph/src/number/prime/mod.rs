@@ -11,12 +11,14 @@
 //! before.
 
 mod modulus;
+mod polynomial;
 mod primality;
 
 #[cfg(test)]
 mod tests;
 
 pub use modulus::{Modulus, UNDEFINED};
+pub use polynomial::{CHECKS, Polynomial, PrimePolynomials};
 pub use primality::is_prime;
 
 use super::rational::Rational;

@@ -1,5 +1,5 @@
 //! Values whose signs are alike or opposite, as those of e^p − e^q and p − q: from the sign of one follows that
-//! of the other.
+//! of the other. Rule S7 of docs/soundness.md.
 
 use crate::graph::Graph;
 use crate::proof::alike::{Likeness, contains_increasing, likeness};

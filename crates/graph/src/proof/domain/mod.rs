@@ -11,7 +11,7 @@
 //!   closure.
 //!
 //! Without the proviso the second rule is wrong: y + |y| is 0 for all y < 0, and x (y + |y|) ≥ 0
-//! says nothing about x there.
+//! says nothing about x there. These are rules S1 to S3 of docs/soundness.md.
 
 mod bounds;
 mod linked;

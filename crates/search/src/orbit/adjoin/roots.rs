@@ -45,10 +45,8 @@ pub fn has_independent_roots(
 /// Lists the square roots of functions of the parameters in a field or map, or in a Lagrangian's
 /// equations of motion, with the number under a root of a number.
 pub fn roots(case: &Case) -> Result<Vec<(Formula, Option<Rational>)>, SearchError> {
-    let is_written = matches!(
-        case.model.system,
-        System::Field(_) | System::Hamiltonian(_) | System::Map(_) | System::Lagrangian(_)
-    );
+    let system = &case.model.system;
+    let is_written = system.is_given_by_formulas() || matches!(system, System::Lagrangian(_));
     if !is_written {
         return Ok(Vec::new());
     }
