@@ -11,6 +11,9 @@ use crate::motion::orbit::{Followed, MEASUREMENTS, Precision, Watch};
 use crate::motion::recorded::point;
 use crate::motion::start::Start;
 use crate::taylor::batch::each;
+use crate::taylor::number::SeriesNumber;
+use crate::taylor::program::TaylorProgram;
+use crate::taylor::values::PlainValues;
 use crate::taylor::watch::Domain;
 use crate::told::ToldShare;
 use liouville::case::Case;
@@ -21,6 +24,10 @@ use liouville::number::float::Float;
 
 /// Number of iterates between two reports of progress.
 const TOLD_EVERY: u64 = 4096;
+
+/// Size of a state from which on an orbit counts as one that escapes where its image is no number; only
+/// words depend on it.
+const FAR: f64 = 1e10;
 
 /// An orbit of a map.
 #[derive(Clone, Debug)]
@@ -59,7 +66,15 @@ pub enum IterateError {
         /// The last state, in words.
         place: String,
     },
-    /// A number is beyond the range of f64.
+    /// A number on the way to an image is beyond the range of f64, and the orbit is not.
+    #[error("a number of the map is too large or too small for f64 after {}, at {place}", counted(*iterates))]
+    OutOfRange {
+        /// Number of iterates that were found.
+        iterates: u64,
+        /// The last state, in words.
+        place: String,
+    },
+    /// The orbit goes beyond the range of f64.
     #[error("the orbit escapes: after {}, at {place}, the next is too large for f64", counted(*iterates))]
     Escapes {
         /// Number of iterates that were found.
@@ -78,6 +93,7 @@ impl IterateError {
                 "choose another start, or other parameters"
             }
             IterateError::NoValue { .. }
+            | IterateError::OutOfRange { .. }
             | IterateError::Escapes { .. }
             | IterateError::Stopped { .. } => "choose another start, or fewer --iterates",
         }
@@ -169,7 +185,10 @@ fn one(
 pub(super) enum Fault {
     /// The formula with this index has no value.
     Formula(usize),
-    Overflow,
+    /// A component of the image is infinite.
+    Escapes,
+    /// A component of the image is no number.
+    OutOfRange,
 }
 
 /// Function from a state to its image.
@@ -179,6 +198,8 @@ pub(super) type Next<'m> = Box<dyn FnMut(&[DoubleDouble]) -> Result<Vec<DoubleDo
 /// do not exist everywhere.
 pub(super) struct RecordedMap {
     tape: Tape,
+    /// The same with rules for moduli, extremes and functions that tend to constants, if it has any.
+    rules: Option<TaylorProgram>,
     /// Number of components of the state and of the tangent vectors.
     components: usize,
     names: Vec<String>,
@@ -217,7 +238,9 @@ impl RecordedMap {
             return Err(FlowError::Antiderivative);
         }
         let (guards, arguments) = guards(&graph, &images, &written);
+        let rules = TaylorProgram::compile(&graph, &images, &arguments).ok();
         Ok(Self {
+            rules: rules.filter(TaylorProgram::has_own_rules),
             tape: Tape::new(&graph, &[images, arguments].concat()),
             components,
             names: (0..dimension).map(|k| model.component_name(k)).collect(),
@@ -227,15 +250,17 @@ impl RecordedMap {
     }
 
     pub(super) fn stepper(&self, precision: Precision) -> Next<'_> {
-        match precision {
-            Precision::Float => {
+        match (precision, &self.rules) {
+            (Precision::Float, Some(rules)) => self.by_rules::<f64>(rules),
+            (Precision::Pair, Some(rules)) => self.by_rules::<DoubleDouble>(rules),
+            (Precision::Float, None) => {
                 let mut evaluator = Evaluator::new(&self.tape, Float::<1>);
                 Box::new(move |state| {
                     evaluator.run(&state.iter().map(|x| [x.hi]).collect::<Vec<_>>());
                     self.checked(evaluator.outputs().map(|x| DoubleDouble::from_f64(x[0])))
                 })
             }
-            Precision::Pair => {
+            (Precision::Pair, None) => {
                 let mut evaluator = Evaluator::new(&self.tape, DoubleDoubles);
                 Box::new(move |state| {
                     evaluator.run(state);
@@ -243,6 +268,14 @@ impl RecordedMap {
                 })
             }
         }
+    }
+
+    fn by_rules<T: SeriesNumber<One = T> + 'static>(&self, rules: &TaylorProgram) -> Next<'_> {
+        let mut values = PlainValues::<T>::new(rules);
+        Box::new(move |state| {
+            values.run(&state.iter().map(|x| T::split(*x).0).collect::<Vec<_>>());
+            self.checked(values.rates().chain(values.outputs()).map(|x| x.pair()))
+        })
     }
 
     /// The image among the values of the tape, if it exists.
@@ -258,7 +291,8 @@ impl RecordedMap {
         match broken {
             Some(((_, formula), _)) => Err(Fault::Formula(*formula)),
             None if image.iter().all(|x| x.is_finite()) => Ok(image),
-            None => Err(Fault::Overflow),
+            None if image.iter().any(|x| x.hi.is_infinite()) => Err(Fault::Escapes),
+            None => Err(Fault::OutOfRange),
         }
     }
 
@@ -282,7 +316,11 @@ impl RecordedMap {
                 let formula = self.formulas.get(*index).cloned().unwrap_or_default();
                 IterateError::NoValue { formula, iterates, place }
             }
-            Fault::Overflow => IterateError::Escapes { iterates, place },
+            Fault::Escapes => IterateError::Escapes { iterates, place },
+            Fault::OutOfRange if state.iter().any(|x| x.hi.abs() >= FAR) => {
+                IterateError::Escapes { iterates, place }
+            }
+            Fault::OutOfRange => IterateError::OutOfRange { iterates, place },
         }
     }
 }

@@ -45,7 +45,7 @@ pub struct Stepper<T: SeriesNumber> {
     pub(crate) series: Series<T>,
     pub(crate) kappa: f64,
     /// State, and its rounding remainder.
-    state: Vec<T>,
+    pub(crate) state: Vec<T>,
     rest: Vec<T>,
     /// Largest sizes of the components, and of the divisors, so far.
     pub(crate) peaks: Vec<T>,
@@ -157,6 +157,7 @@ impl<T: SeriesNumber> Stepper<T> {
 
     /// Expands all motions at their states and chooses their steps.
     pub fn expand(&mut self) {
+        self.face_signs();
         self.expand_in_units();
         self.settle_signs();
         for index in 0..T::LANES {
@@ -242,6 +243,11 @@ impl<T: SeriesNumber> Stepper<T> {
     /// Time of a motion.
     pub fn time(&self, lane: usize) -> DoubleDouble {
         self.lanes[lane].time
+    }
+
+    /// Longest step that a motion has taken.
+    pub(crate) fn longest_step(&self, lane: usize) -> f64 {
+        self.lanes[lane].pace.longest()
     }
 
     /// Number of steps that a motion has taken.
