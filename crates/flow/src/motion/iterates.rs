@@ -171,7 +171,7 @@ fn one(
         if index % TOLD_EVERY == 0 {
             reach(index as f64 / count.max(1) as f64);
             if halt.is_raised() && index < count {
-                return Err(IterateError::Stopped { iterates: index, place: map.place(&state) });
+                return Err(map.stopped(index, &state));
             }
         }
         if index < count {
@@ -302,6 +302,11 @@ impl RecordedMap {
         let parts =
             self.names.iter().zip(state).map(|(name, x)| format!("{name} = {:?}", x.hi + 0.0));
         parts.collect::<Vec<_>>().join(", ")
+    }
+
+    /// End of an orbit that is stopped from outside.
+    pub(super) fn stopped(&self, iterates: u64, state: &[DoubleDouble]) -> IterateError {
+        IterateError::Stopped { iterates, place: self.place(state) }
     }
 
     pub(super) fn problem(

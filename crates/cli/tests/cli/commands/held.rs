@@ -83,6 +83,17 @@ fn an_orbit_that_is_stopped_says_where() {
         .stderr(contains("error: not finished: stopped after 0.3 s"));
     let rows = fs::read_to_string(&out).expect("what comes before");
     assert!(rows.lines().count() > 2, "{rows}");
+    // Crossings, and motions that come to their ends before.
+    let surface = ["--section", "x=0", "--axes", "y", "--crossings", "1000000"];
+    let section = ["motion", "section", &case, "--start", "1,0", "--within", "0.3"];
+    let found = liouville(&[&section[..], &surface, &["--out", &out]].concat()).assert();
+    found.code(3).stdout(contains("the motion was stopped"));
+    let rows = fs::read_to_string(&out).expect("what comes before");
+    assert!(rows.lines().count() > 2, "{rows}");
+    let exponents = ["motion", "exponents", &case, "--start", "0,0", "--start", "1,0"];
+    let long = ["--time", "1e8", "--one-way", "--within", "0.3"];
+    let found = liouville(&[&exponents[..], &long].concat()).assert();
+    found.code(3).stdout(contains("0,0").and(contains("stopped")));
 }
 
 #[test]
