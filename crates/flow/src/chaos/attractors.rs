@@ -69,6 +69,11 @@ impl Tail {
         self.rows.iter().all(|row| squared(row, first) <= NONE * NONE)
     }
 
+    /// Whether the motion comes to rest at a point.
+    pub fn rests(&self) -> bool {
+        self.rest.is_some()
+    }
+
     /// Whether the later half of the samples keeps nearer to the last one than the earlier half: a motion
     /// on a cycle does not.
     pub fn closes_in(&self) -> bool {
@@ -196,7 +201,7 @@ mod tests {
         for turn in [0.0, 0.3, 2.1] {
             for width in [0.0, 0.5] {
                 let own = swing(0.0, turn, width);
-                assert!(own.is_settled(), "{turn}, {width}");
+                assert!(own.is_settled() && own.rests(), "{turn}, {width}");
                 assert!(own.is_with(&swing(0.0, turn + 1.0, 0.5)), "{turn}, {width}");
                 assert!(!own.is_with(&swing(0.2, turn, width)), "{turn}, {width}");
                 assert!(own.is_with(&tail(|_| [0.0; 2])), "{turn}, {width}");

@@ -297,6 +297,7 @@ impl Found {
                 ranges: ranges(&first.rows),
                 last: first.rows.last().cloned().unwrap_or_default(),
                 is_point: first.tail.is_point()
+                    || first.tail.rests()
                     || first.tail.closes_in() && exponents.as_ref().is_ok_and(contracts),
                 state: first.end.iter().map(|x| x.hi).collect(),
                 exponents,
