@@ -58,6 +58,22 @@ pub enum IterateError {
         /// The last state, in words.
         place: String,
     },
+    /// The map has no derivative at a state, as |x| has none at 0.
+    #[error("the map has no derivative after {}, at {place}", counted(*iterates))]
+    NoDerivative {
+        /// Number of iterates that were found.
+        iterates: u64,
+        /// The last state, in words.
+        place: String,
+    },
+    /// The derivative of the map takes a tangent vector to 0.
+    #[error("det DΦ is 0 after {}, at {place}: an exponent is −∞ from there on", counted(*iterates))]
+    Degenerate {
+        /// Number of iterates that were found.
+        iterates: u64,
+        /// The last state, in words.
+        place: String,
+    },
     /// The orbit was stopped from outside.
     #[error("stopped after {}, at {place}", counted(*iterates))]
     Stopped {
@@ -92,7 +108,11 @@ impl IterateError {
             IterateError::NoValue { iterates: 0, .. } => {
                 "choose another start, or other parameters"
             }
-            IterateError::NoValue { .. }
+            IterateError::Degenerate { .. } => {
+                "leave out what the map takes to one value, or choose other parameters"
+            }
+            IterateError::NoDerivative { .. }
+            | IterateError::NoValue { .. }
             | IterateError::OutOfRange { .. }
             | IterateError::Escapes { .. }
             | IterateError::Stopped { .. } => "choose another start, or fewer --iterates",
@@ -185,6 +205,8 @@ fn one(
 pub(super) enum Fault {
     /// The formula with this index has no value.
     Formula(usize),
+    /// The map has an image, and no derivative.
+    Derivative,
     /// A component of the image is infinite.
     Escapes,
     /// A component of the image is no number.
@@ -237,7 +259,7 @@ impl RecordedMap {
         if graph.inputs() > components {
             return Err(FlowError::Antiderivative);
         }
-        let (guards, arguments) = guards(&graph, &images, &written);
+        let (guards, arguments) = guards(&graph, images.split_at(dimension), &written);
         let rules = TaylorProgram::compile(&graph, &images, &arguments).ok();
         Ok(Self {
             rules: rules.filter(TaylorProgram::has_own_rules),
@@ -289,6 +311,7 @@ impl RecordedMap {
             argument.hi.is_finite() && !domain.contains(argument.hi)
         });
         match broken {
+            Some(((_, formula), _)) if *formula >= self.formulas.len() => Err(Fault::Derivative),
             Some(((_, formula), _)) => Err(Fault::Formula(*formula)),
             None if image.iter().all(|x| x.is_finite()) => Ok(image),
             None if image.iter().any(|x| x.hi.is_infinite()) => Err(Fault::Escapes),
@@ -302,6 +325,11 @@ impl RecordedMap {
         let parts =
             self.names.iter().zip(state).map(|(name, x)| format!("{name} = {:?}", x.hi + 0.0));
         parts.collect::<Vec<_>>().join(", ")
+    }
+
+    /// End of an orbit at whose state a tangent vector goes to 0.
+    pub(super) fn degenerate(&self, iterates: u64, state: &[DoubleDouble]) -> IterateError {
+        IterateError::Degenerate { iterates, place: self.place(state) }
     }
 
     /// End of an orbit that is stopped from outside.
@@ -321,6 +349,7 @@ impl RecordedMap {
                 let formula = self.formulas.get(*index).cloned().unwrap_or_default();
                 IterateError::NoValue { formula, iterates, place }
             }
+            Fault::Derivative => IterateError::NoDerivative { iterates, place },
             Fault::Escapes => IterateError::Escapes { iterates, place },
             Fault::OutOfRange if state.iter().any(|x| x.hi.abs() >= FAR) => {
                 IterateError::Escapes { iterates, place }
@@ -333,21 +362,24 @@ impl RecordedMap {
 /// Domains of all operations that do not exist everywhere, with their formulas and their arguments.
 fn guards(
     graph: &Graph,
-    images: &[Expr],
+    (images, slopes): (&[Expr], &[Expr]),
     written: &[Vec<Expr>],
 ) -> (Vec<(Domain, usize)>, Vec<Expr>) {
     let (mut guards, mut arguments) = (Vec::new(), Vec::new());
     let mut seen = vec![false; graph.len()];
     let in_images = graph.reached(images.iter().copied());
     let sources = written.iter().map(|own| graph.reached(own.iter().copied()));
-    // What the images contain and no formula is found in counts with the first one.
-    for (formula, reached) in sources.chain([in_images]).enumerate() {
+    let in_slopes = graph.reached(slopes.iter().copied());
+    let last = written.len().saturating_sub(1);
+    let named = (0..written.len()).chain([last, written.len()]);
+    // What the images contain and no formula counts with the last one; slopes come after all formulas.
+    for (formula, reached) in named.zip(sources.chain([in_images, in_slopes])) {
         for place in (0..graph.len()).filter(|place| reached[*place]) {
             if std::mem::replace(&mut seen[place], true) {
                 continue;
             }
             if let Some((domain, argument)) = Domain::of(graph.step(place)) {
-                guards.push((domain, formula.min(written.len().saturating_sub(1))));
+                guards.push((domain, formula));
                 arguments.push(graph.at(argument));
             }
         }

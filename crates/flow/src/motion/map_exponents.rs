@@ -94,6 +94,9 @@ fn along(
             record.align(index as f64, alignment(first, second));
         }
         let lengths = orthonormal(&mut vectors[loose * dimension..], dimension);
+        if lengths.contains(&0.0) {
+            return Err(map.degenerate(index - 1, &state));
+        }
         sums.iter_mut().zip(lengths).for_each(|(sum, length)| *sum += libm::log(length));
         if index == end(block, count) {
             let length = (index - begin) as f64;

@@ -67,6 +67,11 @@ impl<T: SeriesNumber> Stepper<T> {
         }
     }
 
+    /// Longest step that a motion has taken.
+    pub(crate) fn longest_step(&self, lane: usize) -> f64 {
+        self.lanes[lane].pace.longest()
+    }
+
     /// State of the system itself, without further components.
     fn own_state(&self, lane: usize) -> Vec<DoubleDouble> {
         let mut state = self.pairs(lane);

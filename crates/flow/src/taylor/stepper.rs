@@ -69,7 +69,7 @@ pub struct Stepper<T: SeriesNumber> {
 pub(crate) struct Sizes<T> {
     /// Maximum norms of the state's coefficients of orders 0 and 1, and of the last two orders.
     pub(crate) norms: [T; 4],
-    /// 0 where all coefficients of the last order are finite, or else NaN.
+    /// 0 where all coefficients of the first and the last order are finite, or else NaN.
     pub(crate) soundness: T,
 }
 
@@ -245,11 +245,6 @@ impl<T: SeriesNumber> Stepper<T> {
         self.lanes[lane].time
     }
 
-    /// Longest step that a motion has taken.
-    pub(crate) fn longest_step(&self, lane: usize) -> f64 {
-        self.lanes[lane].pace.longest()
-    }
-
     /// Number of steps that a motion has taken.
     pub fn steps(&self, lane: usize) -> u64 {
         self.lanes[lane].steps
@@ -294,7 +289,9 @@ impl<T: SeriesNumber> Kernel for ErrorMeasure<'_, T> {
             for (norm, n) in sizes.norms.iter_mut().zip([0, 1, order - 1, order]) {
                 *norm = norm.larger(coefficients[n]);
             }
-            sizes.soundness = sizes.soundness + coefficients[order] * T::ZERO;
+            // A constant without a value is in order 1 alone.
+            let ends = coefficients[1] + coefficients[order];
+            sizes.soundness = sizes.soundness + ends * T::ZERO;
         }
         stepper.sizes = sizes;
     }
