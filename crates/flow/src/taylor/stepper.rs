@@ -159,6 +159,7 @@ impl<T: SeriesNumber> Stepper<T> {
     pub fn expand(&mut self) {
         self.face_signs();
         self.expand_in_units();
+        self.lengthen_units();
         self.settle_signs();
         for index in 0..T::LANES {
             let size = self.step_size(index);

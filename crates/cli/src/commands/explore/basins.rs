@@ -58,7 +58,7 @@ pub struct BasinArgs {
 
 /// Finds the basins, until a limit or Ctrl-C ends that early.
 pub fn run(options: &BasinArgs) -> Result<CommandOutput, String> {
-    watched(options.subject.limits, || answer(options))
+    watched(options.subject.limits, None, || answer(options))
 }
 
 /// Finds the basins and writes their file; returns the report, and whether motions were stopped.

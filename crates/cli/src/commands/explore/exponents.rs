@@ -56,7 +56,7 @@ pub struct ExponentsArgs {
 
 pub fn run(options: &ExponentsArgs) -> Result<CommandOutput, String> {
     if options.subject.reads_map()? {
-        return watched(options.subject.limits, || map_exponents::answer(options));
+        return watched(options.subject.limits, None, || map_exponents::answer(options));
     }
     if options.iterates.is_some() {
         return Err("error: --iterates: the case is not a map, and its motions have a time\n\
@@ -67,7 +67,7 @@ pub fn run(options: &ExponentsArgs) -> Result<CommandOutput, String> {
     if options.share.part.is_some() {
         return carry_out(&job()?, &options.share, options.target());
     }
-    watched(options.subject.limits, || {
+    watched(options.subject.limits, Some(&options.share.remedy()), || {
         let job = job()?;
         let units = job.compute(Part::WHOLE, options.threads.count())?;
         let is_stopped = units.iter().any(|unit| unit.problem() == Some(&FlowError::Stopped));

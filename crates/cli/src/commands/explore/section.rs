@@ -166,7 +166,7 @@ pub fn run(options: &SectionArgs) -> Result<CommandOutput, String> {
             Target { out: options.ink.out.as_deref(), threads },
         );
     }
-    watched(options.subject.limits, || answer(options))
+    watched(options.subject.limits, Some(&options.share.remedy()), || answer(options))
 }
 
 /// Follows the motions and writes their file; returns the report, and whether some were stopped.

@@ -22,7 +22,12 @@ fn field(rates: &[(&str, &str)]) -> Case {
     parse(&format!("title = 'a'\n[state]\n{state}[field]\n{field}"))
 }
 
-fn followed(case: &Case, begin: &str, time: f64, precision: Precision) -> Result<Orbit, FlowError> {
+pub(super) fn followed(
+    case: &Case,
+    begin: &str,
+    time: f64,
+    precision: Precision,
+) -> Result<Orbit, FlowError> {
     orbit(case, start(case, begin), DoubleDouble::from_f64(time), precision)
 }
 
