@@ -51,7 +51,7 @@ impl FlowError {
                  is touched and not crossed, as cos(t) = 1, has no crossings: write sin(t) = 0"
             }
             FlowError::SectionEnds { .. } => {
-                "write the surface without roots, logarithms and quotients: y + 0.7 = 1/4, not sqrt(y + 0.7) = 1/2"
+                "write the surface without roots, logarithms, quotients and high powers: y + 0.7 = 1/4, not sqrt(y + 0.7) = 1/2, and y = x*tan(1), not atan2(y, x) = 1"
             }
             FlowError::NoTangents => "leave out an equation of [level]",
             FlowError::AtRest => "choose another start",

@@ -182,7 +182,7 @@ pub enum FlowError {
     },
     /// A formula of the section has no value from some point of the motion on, or the motion ends there.
     #[error(
-        "a formula of the section has no value beyond t = {time:.6} of the motion, or the motion ends there"
+        "a formula of the section cannot be followed beyond t = {time:.6} of the motion: it has no value there, jumps, or is 0 to a high order"
     )]
     SectionEnds {
         /// Time of the last value.

@@ -3,7 +3,8 @@
 //! Two motions keep to one set if the samples of each lie as near to those of the other as the later
 //! ones of a motion lie to its own earlier ones. Distances are those across the motion: what is along
 //! it, up to the next sample, does not count. So there is none for a point, little for a cycle, and that
-//! of points strewn over a strange attractor.
+//! of points strewn over a strange attractor. Motions that close in on points are told apart by these, in
+//! whatever direction they come.
 
 /// Number of samples of a motion, at times that share no period with it.
 pub const SAMPLES: usize = 160;
@@ -14,6 +15,9 @@ const NONE: f64 = 1e-6;
 /// Ratio of the distances from the last sample in the later half to those in the earlier half, up to which
 /// a motion closes in on it.
 const CLOSER: f64 = 0.75;
+/// The same for a motion that comes to rest there, as far as a motion of the same length from its end on
+/// confirms; a steady drift has 1/2, and one that slows down evenly 1/4.
+const ARRIVING: f64 = 0.1;
 /// Largest number of sets.
 pub const MOST_SETS: usize = 32;
 
@@ -30,6 +34,8 @@ pub struct Tail {
     rows: Vec<Sample>,
     /// Distance of the later half of the samples from the earlier one, across the motion.
     spread: f64,
+    /// Distance of the later half of the samples from the last one, if the motion comes to rest there.
+    rest: Option<f64>,
     is_settled: bool,
 }
 
@@ -44,9 +50,12 @@ impl Tail {
         let (early, late) = rows.split_at(rows.len() / 2);
         let own = distance(early, early, true, squared).max(NONE);
         // What moves on leaves its earlier places behind, farther than they are from each other.
-        let is_settled = distance(late, early, false, squared).max(NONE) <= NEAR * own;
+        let returns = distance(late, early, false, squared).max(NONE) <= NEAR * own;
         let spread = distance(late, early, false, across).max(NONE);
-        Self { rows, spread, is_settled }
+        let [before, after] = farther_and_nearer(&rows);
+        let arrives = after <= NONE.max(ARRIVING * before);
+        let rest = arrives.then_some(after.max(NONE));
+        Self { rows, spread, rest, is_settled: returns || arrives }
     }
 
     /// Whether the motion returns to where it was.
@@ -60,22 +69,35 @@ impl Tail {
         self.rows.iter().all(|row| squared(row, first) <= NONE * NONE)
     }
 
+    /// Whether the motion comes to rest at a point.
+    pub fn rests(&self) -> bool {
+        self.rest.is_some()
+    }
+
     /// Whether the later half of the samples keeps nearer to the last one than the earlier half: a motion
     /// on a cycle does not.
     pub fn closes_in(&self) -> bool {
-        let Some(last) = self.rows.last() else { return false };
-        let (early, late) = self.rows.split_at(self.rows.len() / 2);
-        let farthest =
-            |rows: &[Sample]| rows.iter().map(|row| squared(row, last)).fold(0.0, f64::max);
-        farthest(late) <= CLOSER * CLOSER * farthest(early)
+        let [before, after] = farther_and_nearer(&self.rows);
+        !self.rows.is_empty() && after <= CLOSER * before
     }
 
     /// Whether the samples lie in the same set as those of another motion.
     pub fn is_with(&self, other: &Self) -> bool {
+        if let (Some(own), Some(others)) = (self.rest, other.rest) {
+            let lasts = self.rows.last().zip(other.rows.last());
+            return lasts.is_some_and(|(a, b)| squared(a, b).sqrt() <= NEAR * own.max(others));
+        }
         let reach = NEAR * self.spread.max(other.spread);
         distance(&self.rows, &other.rows, false, across) <= reach
             && distance(&other.rows, &self.rows, false, across) <= reach
     }
+}
+
+/// Largest distances from the last sample in the earlier and in the later half.
+fn farther_and_nearer(rows: &[Sample]) -> [f64; 2] {
+    let Some(last) = rows.last() else { return [f64::INFINITY; 2] };
+    let (early, late) = rows.split_at(rows.len() / 2);
+    [early, late].map(|half| half.iter().map(|row| squared(row, last)).fold(0.0, f64::max).sqrt())
 }
 
 /// Distance of two samples, squared.
@@ -164,7 +186,32 @@ mod tests {
     }
 
     #[test]
+    fn what_comes_to_rest_is_told_by_where_whatever_its_direction() {
+        // Damped swings along a line, and on ellipses
+        let swing = |x: f64, turn: f64, width: f64| {
+            tail(move |t| {
+                let size = 0.1 * (-t / 32.0).exp();
+                let (along, beside) = (size * (0.7 * t).cos(), width * size * (1.9 * t).sin());
+                [
+                    x + turn.cos() * along - turn.sin() * beside,
+                    turn.sin() * along + turn.cos() * beside,
+                ]
+            })
+        };
+        for turn in [0.0, 0.3, 2.1] {
+            for width in [0.0, 0.5] {
+                let own = swing(0.0, turn, width);
+                assert!(own.is_settled() && own.rests(), "{turn}, {width}");
+                assert!(own.is_with(&swing(0.0, turn + 1.0, 0.5)), "{turn}, {width}");
+                assert!(!own.is_with(&swing(0.2, turn, width)), "{turn}, {width}");
+                assert!(own.is_with(&tail(|_| [0.0; 2])), "{turn}, {width}");
+            }
+        }
+    }
+
+    #[test]
     fn what_drifts_is_not_settled() {
+        assert!(!tail(|t| [(1.0 - t / 160.0).powi(2), 0.0]).is_settled(), "a stop");
         assert!(!tail(|t| [t, 0.0]).is_settled(), "a line");
         assert!(!tail(|t| [(t / 30.0).exp(), 0.0]).is_settled(), "growth");
         assert!(!tail(|t| [t / 40.0, t.sin()]).is_settled(), "a slow drift");

@@ -106,7 +106,8 @@ pub struct Attractor {
     pub exponents: Result<Exponents, FlowError>,
 }
 
-/// Basins of a grid of starts.
+/// Basins of a grid of starts. Of a computation that is stopped from outside it has the sets of the motions
+/// that were followed to their ends, not yet compared at later times.
 #[derive(Clone, Debug)]
 pub struct Basins {
     /// End of each motion, row by row from the least value of the second axis.
@@ -143,16 +144,15 @@ pub fn basins(
             (wave..count.min(wave + WAVE)).map(|index| order.place(index)).collect();
         let starts = launches.starts(places.iter().map(|place| state(*place)).collect())?;
         let tails = motions.follow(&starts, request.time, threads, progress);
-        if tails.iter().any(|tail| matches!(tail, Err(FlowError::Stopped))) {
-            return Err(FlowError::Stopped);
-        }
         found.add(&places, tails);
     }
     if let Some(problem) = found.common_problem() {
         return Err(problem);
     }
     let later = motions.follow(&found.later(&parameters), request.time, threads, &|_| {});
-    found.join(later);
+    if !later.iter().any(|late| matches!(late, Err(FlowError::Stopped))) {
+        found.join(later);
+    }
     let shadowed = Shadowed::new(&case.model, &parameters, &[])?;
     let exponents = shadowed.follow(&found.begins(), request.time, threads, &|_| {});
     Ok(found.told(exponents))
@@ -297,6 +297,7 @@ impl Found {
                 ranges: ranges(&first.rows),
                 last: first.rows.last().cloned().unwrap_or_default(),
                 is_point: first.tail.is_point()
+                    || first.tail.rests()
                     || first.tail.closes_in() && exponents.as_ref().is_ok_and(contracts),
                 state: first.end.iter().map(|x| x.hi).collect(),
                 exponents,

@@ -35,12 +35,18 @@ pub(super) fn overflow(time: f64) -> String {
 pub(super) fn shrinking(time: f64, [step, rest, grown]: [f64; 3], state: &[f64]) -> String {
     let direction = direction(time);
     let (what, size) = match grown > GROWN {
+        // A motion may start at 0.
+        true if grown.is_infinite() => ("runs away", String::new()),
         true => ("runs away", format!(", {grown:.1e} times as large as at the start,")),
         false => ("turns ever faster", String::new()),
     };
+    let rest = match rest.is_finite() {
+        true => format!("the rest of the time takes {rest:.0e} of them"),
+        false => "no number of them reaches the end of the time".to_string(),
+    };
     format!(
         "{direction}the motion {what}: at t = {time}, near the state [{}]{size} a step is {:.1e}; if they \
-         go on shrinking, the rest of the time takes {rest:.0e} of them",
+         go on shrinking, {rest}",
         shown(state),
         step.abs()
     )
@@ -94,7 +100,7 @@ pub(super) fn slides(time: f64, state: &[f64]) -> String {
 pub(super) fn too_short(time: f64, state: &[f64]) -> String {
     format!(
         "{}the steps became too short at t = {time}, near the state [{}]: the field varies there over less \
-         than the rounding of the time",
+         than the rounding of the time, or jumps as atan2 does at its cut",
         direction(time),
         shown(state)
     )

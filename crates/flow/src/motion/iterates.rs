@@ -11,6 +11,9 @@ use crate::motion::orbit::{Followed, MEASUREMENTS, Precision, Watch};
 use crate::motion::recorded::point;
 use crate::motion::start::Start;
 use crate::taylor::batch::each;
+use crate::taylor::number::SeriesNumber;
+use crate::taylor::program::TaylorProgram;
+use crate::taylor::values::PlainValues;
 use crate::taylor::watch::Domain;
 use crate::told::ToldShare;
 use liouville::case::Case;
@@ -21,6 +24,10 @@ use liouville::number::float::Float;
 
 /// Number of iterates between two reports of progress.
 const TOLD_EVERY: u64 = 4096;
+
+/// Size of a state from which on an orbit counts as one that escapes where its image is no number; only
+/// words depend on it.
+const FAR: f64 = 1e10;
 
 /// An orbit of a map.
 #[derive(Clone, Debug)]
@@ -51,6 +58,22 @@ pub enum IterateError {
         /// The last state, in words.
         place: String,
     },
+    /// The map has no derivative at a state, as |x| has none at 0.
+    #[error("the map has no derivative after {}, at {place}", counted(*iterates))]
+    NoDerivative {
+        /// Number of iterates that were found.
+        iterates: u64,
+        /// The last state, in words.
+        place: String,
+    },
+    /// The derivative of the map takes a tangent vector to 0.
+    #[error("det DΦ is 0 after {}, at {place}: an exponent is −∞ from there on", counted(*iterates))]
+    Degenerate {
+        /// Number of iterates that were found.
+        iterates: u64,
+        /// The last state, in words.
+        place: String,
+    },
     /// The orbit was stopped from outside.
     #[error("stopped after {}, at {place}", counted(*iterates))]
     Stopped {
@@ -59,7 +82,15 @@ pub enum IterateError {
         /// The last state, in words.
         place: String,
     },
-    /// A number is beyond the range of f64.
+    /// A number on the way to an image is beyond the range of f64, and the orbit is not.
+    #[error("a number of the map is too large or too small for f64 after {}, at {place}", counted(*iterates))]
+    OutOfRange {
+        /// Number of iterates that were found.
+        iterates: u64,
+        /// The last state, in words.
+        place: String,
+    },
+    /// The orbit goes beyond the range of f64.
     #[error("the orbit escapes: after {}, at {place}, the next is too large for f64", counted(*iterates))]
     Escapes {
         /// Number of iterates that were found.
@@ -77,7 +108,12 @@ impl IterateError {
             IterateError::NoValue { iterates: 0, .. } => {
                 "choose another start, or other parameters"
             }
-            IterateError::NoValue { .. }
+            IterateError::Degenerate { .. } => {
+                "leave out what the map takes to one value, or choose other parameters"
+            }
+            IterateError::NoDerivative { .. }
+            | IterateError::NoValue { .. }
+            | IterateError::OutOfRange { .. }
             | IterateError::Escapes { .. }
             | IterateError::Stopped { .. } => "choose another start, or fewer --iterates",
         }
@@ -155,7 +191,7 @@ fn one(
         if index % TOLD_EVERY == 0 {
             reach(index as f64 / count.max(1) as f64);
             if halt.is_raised() && index < count {
-                return Err(IterateError::Stopped { iterates: index, place: map.place(&state) });
+                return Err(map.stopped(index, &state));
             }
         }
         if index < count {
@@ -169,7 +205,12 @@ fn one(
 pub(super) enum Fault {
     /// The formula with this index has no value.
     Formula(usize),
-    Overflow,
+    /// The map has an image, and no derivative.
+    Derivative,
+    /// A component of the image is infinite.
+    Escapes,
+    /// A component of the image is no number.
+    OutOfRange,
 }
 
 /// Function from a state to its image.
@@ -179,6 +220,8 @@ pub(super) type Next<'m> = Box<dyn FnMut(&[DoubleDouble]) -> Result<Vec<DoubleDo
 /// do not exist everywhere.
 pub(super) struct RecordedMap {
     tape: Tape,
+    /// The same with rules for moduli, extremes and functions that tend to constants, if it has any.
+    rules: Option<TaylorProgram>,
     /// Number of components of the state and of the tangent vectors.
     components: usize,
     names: Vec<String>,
@@ -216,8 +259,10 @@ impl RecordedMap {
         if graph.inputs() > components {
             return Err(FlowError::Antiderivative);
         }
-        let (guards, arguments) = guards(&graph, &images, &written);
+        let (guards, arguments) = guards(&graph, images.split_at(dimension), &written);
+        let rules = TaylorProgram::compile(&graph, &images, &arguments).ok();
         Ok(Self {
+            rules: rules.filter(TaylorProgram::has_own_rules),
             tape: Tape::new(&graph, &[images, arguments].concat()),
             components,
             names: (0..dimension).map(|k| model.component_name(k)).collect(),
@@ -227,15 +272,17 @@ impl RecordedMap {
     }
 
     pub(super) fn stepper(&self, precision: Precision) -> Next<'_> {
-        match precision {
-            Precision::Float => {
+        match (precision, &self.rules) {
+            (Precision::Float, Some(rules)) => self.by_rules::<f64>(rules),
+            (Precision::Pair, Some(rules)) => self.by_rules::<DoubleDouble>(rules),
+            (Precision::Float, None) => {
                 let mut evaluator = Evaluator::new(&self.tape, Float::<1>);
                 Box::new(move |state| {
                     evaluator.run(&state.iter().map(|x| [x.hi]).collect::<Vec<_>>());
                     self.checked(evaluator.outputs().map(|x| DoubleDouble::from_f64(x[0])))
                 })
             }
-            Precision::Pair => {
+            (Precision::Pair, None) => {
                 let mut evaluator = Evaluator::new(&self.tape, DoubleDoubles);
                 Box::new(move |state| {
                     evaluator.run(state);
@@ -243,6 +290,14 @@ impl RecordedMap {
                 })
             }
         }
+    }
+
+    fn by_rules<T: SeriesNumber<One = T> + 'static>(&self, rules: &TaylorProgram) -> Next<'_> {
+        let mut values = PlainValues::<T>::new(rules);
+        Box::new(move |state| {
+            values.run(&state.iter().map(|x| T::split(*x).0).collect::<Vec<_>>());
+            self.checked(values.rates().chain(values.outputs()).map(|x| x.pair()))
+        })
     }
 
     /// The image among the values of the tape, if it exists.
@@ -256,9 +311,11 @@ impl RecordedMap {
             argument.hi.is_finite() && !domain.contains(argument.hi)
         });
         match broken {
+            Some(((_, formula), _)) if *formula >= self.formulas.len() => Err(Fault::Derivative),
             Some(((_, formula), _)) => Err(Fault::Formula(*formula)),
             None if image.iter().all(|x| x.is_finite()) => Ok(image),
-            None => Err(Fault::Overflow),
+            None if image.iter().any(|x| x.hi.is_infinite()) => Err(Fault::Escapes),
+            None => Err(Fault::OutOfRange),
         }
     }
 
@@ -268,6 +325,16 @@ impl RecordedMap {
         let parts =
             self.names.iter().zip(state).map(|(name, x)| format!("{name} = {:?}", x.hi + 0.0));
         parts.collect::<Vec<_>>().join(", ")
+    }
+
+    /// End of an orbit at whose state a tangent vector goes to 0.
+    pub(super) fn degenerate(&self, iterates: u64, state: &[DoubleDouble]) -> IterateError {
+        IterateError::Degenerate { iterates, place: self.place(state) }
+    }
+
+    /// End of an orbit that is stopped from outside.
+    pub(super) fn stopped(&self, iterates: u64, state: &[DoubleDouble]) -> IterateError {
+        IterateError::Stopped { iterates, place: self.place(state) }
     }
 
     pub(super) fn problem(
@@ -282,7 +349,12 @@ impl RecordedMap {
                 let formula = self.formulas.get(*index).cloned().unwrap_or_default();
                 IterateError::NoValue { formula, iterates, place }
             }
-            Fault::Overflow => IterateError::Escapes { iterates, place },
+            Fault::Derivative => IterateError::NoDerivative { iterates, place },
+            Fault::Escapes => IterateError::Escapes { iterates, place },
+            Fault::OutOfRange if state.iter().any(|x| x.hi.abs() >= FAR) => {
+                IterateError::Escapes { iterates, place }
+            }
+            Fault::OutOfRange => IterateError::OutOfRange { iterates, place },
         }
     }
 }
@@ -290,21 +362,24 @@ impl RecordedMap {
 /// Domains of all operations that do not exist everywhere, with their formulas and their arguments.
 fn guards(
     graph: &Graph,
-    images: &[Expr],
+    (images, slopes): (&[Expr], &[Expr]),
     written: &[Vec<Expr>],
 ) -> (Vec<(Domain, usize)>, Vec<Expr>) {
     let (mut guards, mut arguments) = (Vec::new(), Vec::new());
     let mut seen = vec![false; graph.len()];
     let in_images = graph.reached(images.iter().copied());
     let sources = written.iter().map(|own| graph.reached(own.iter().copied()));
-    // What the images contain and no formula is found in counts with the first one.
-    for (formula, reached) in sources.chain([in_images]).enumerate() {
+    let in_slopes = graph.reached(slopes.iter().copied());
+    let last = written.len().saturating_sub(1);
+    let named = (0..written.len()).chain([last, written.len()]);
+    // What the images contain and no formula counts with the last one; slopes come after all formulas.
+    for (formula, reached) in named.zip(sources.chain([in_images, in_slopes])) {
         for place in (0..graph.len()).filter(|place| reached[*place]) {
             if std::mem::replace(&mut seen[place], true) {
                 continue;
             }
             if let Some((domain, argument)) = Domain::of(graph.step(place)) {
-                guards.push((domain, formula.min(written.len().saturating_sub(1))));
+                guards.push((domain, formula));
                 arguments.push(graph.at(argument));
             }
         }

@@ -3,6 +3,7 @@
 
 use crate::chaos::spectrum::Spectrum;
 use crate::error::FlowError;
+use crate::halt::Halt;
 use crate::motion::iterates::{IterateError, RecordedMap};
 use crate::motion::lyapunov::{BLOCKS, Exponents, Record, SKIPPED, estimate};
 use crate::motion::orbit::Precision;
@@ -79,6 +80,7 @@ fn along(
     let mut sums = vec![0.0; basis.len()];
     let (mut before, mut blocks) = (sums.clone(), Vec::new());
     let (mut block, mut begin) = (0, 0);
+    let halt = Halt::current();
     for index in 1..=count {
         let state = row[..dimension].to_vec();
         row = next(&row).map_err(|fault| map.problem(&fault, index - 1, &state))?;
@@ -92,6 +94,9 @@ fn along(
             record.align(index as f64, alignment(first, second));
         }
         let lengths = orthonormal(&mut vectors[loose * dimension..], dimension);
+        if lengths.contains(&0.0) {
+            return Err(map.degenerate(index - 1, &state));
+        }
         sums.iter_mut().zip(lengths).for_each(|(sum, length)| *sum += libm::log(length));
         if index == end(block, count) {
             let length = (index - begin) as f64;
@@ -105,6 +110,9 @@ fn along(
         }
         if index % TOLD_EVERY == 0 {
             reach(index as f64 / count as f64);
+            if halt.is_raised() && index < count {
+                return Err(map.stopped(index, &row[..dimension]));
+            }
         }
     }
     let largest = record.exponents();

@@ -158,6 +158,10 @@ impl<'t, T: SeriesNumber<One = f64>> Worker<'t, T> {
                 let end = record.end().unwrap_or(self.task.time);
                 self.stepper.start(lane, begin, DoubleDouble::from_f64(end));
                 self.stepper.aim(lane, self.task.time);
+                if self.task.time < 0.0 {
+                    // Motions with friction run away backwards in time, and have no exponents there.
+                    self.stepper.hasten(lane);
+                }
                 self.running[lane] = Some((index, record, ToldShare::default()));
             }
             Err(problem) => {

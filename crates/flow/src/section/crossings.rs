@@ -21,6 +21,10 @@ const ROUNDINGS: f64 = 64.0;
 /// Number of crossings in the other direction alone after which a motion counts as lost.
 const MAX_OTHERS: usize = 1000;
 
+/// Part of a motion's longest step above which a step has a usual length; only the words on a motion that
+/// ends depend on it.
+const USUAL: f64 = 1e-2;
+
 /// Motions to follow. Output 0 of the program vanishes on the surface.
 pub(crate) struct CrossingTask<'t> {
     pub program: &'t TaylorProgram,
@@ -175,7 +179,8 @@ impl<'w, T: SeriesNumber<One = f64>, P: Send, L: FnMut(DoubleDouble, &[DoubleDou
                 FlowError::Singular { .. }
                 | FlowError::RunsAway { .. }
                 | FlowError::TooShort { .. }
-                    if self.stepper.is_cut(lane) =>
+                    if self.stepper.is_cut(lane)
+                        || field_goes_on(self.task, &self.stepper, lane) =>
                 {
                     FlowError::SectionEnds { time }
                 }
@@ -188,7 +193,8 @@ impl<'w, T: SeriesNumber<One = f64>, P: Send, L: FnMut(DoubleDouble, &[DoubleDou
             running.track.problem = Some(FlowError::AtRest);
             return true;
         }
-        if !running.sides.pass(ends, lane) {
+        let ends_at_turn = self.stepper.ends_at_turn(lane);
+        if ends_at_turn || !running.sides.pass(ends, lane) {
             let piece = self.stepper.piece(lane);
             let polynomial = piece.output(0);
             if !polynomial.iter().all(|coefficient| coefficient.is_finite()) {
@@ -206,7 +212,8 @@ impl<'w, T: SeriesNumber<One = f64>, P: Send, L: FnMut(DoubleDouble, &[DoubleDou
             if steps == 0 {
                 running.track.is_close = reach <= ROUNDINGS * doubt();
             }
-            for event in running.sides.events(&polynomial, piece.length(), doubt) {
+            let sides = &mut running.sides;
+            for event in sides.events_up_to_turn(&polynomial, piece.length(), doubt, ends_at_turn) {
                 if running.meet(event, &piece, self.task, steps, &mut self.observe) {
                     return true;
                 }
@@ -230,6 +237,21 @@ impl<'w, T: SeriesNumber<One = f64>, P: Send, L: FnMut(DoubleDouble, &[DoubleDou
         running.told.finish(progress);
         self.done.push((running.index, running.track));
     }
+}
+
+/// Whether the field without the surface's function has steps of a usual length where the motion with
+/// it ends.
+fn field_goes_on<T: SeriesNumber>(
+    task: &CrossingTask<'_>,
+    motion: &Stepper<T>,
+    lane: usize,
+) -> bool {
+    let program = task.program.without_outputs();
+    let mut alone = Stepper::<f64>::new(&program, Accuracy::FLOAT);
+    alone.start_open(0, &motion.pairs(lane), task.backwards);
+    alone.expand();
+    let longest = motion.longest_step(lane);
+    alone.check(0).is_ok() && alone.step(0).abs() > USUAL * longest
 }
 
 impl<P> Running<P> {

@@ -67,6 +67,11 @@ impl<T: SeriesNumber> Stepper<T> {
         }
     }
 
+    /// Longest step that a motion has taken.
+    pub(crate) fn longest_step(&self, lane: usize) -> f64 {
+        self.lanes[lane].pace.longest()
+    }
+
     /// State of the system itself, without further components.
     fn own_state(&self, lane: usize) -> Vec<DoubleDouble> {
         let mut state = self.pairs(lane);
@@ -113,36 +118,37 @@ impl<T: SeriesNumber> Stepper<T> {
         let at = |value: T| value.lane(lane).leading();
         let [still, moving, ..] = self.sizes.norms.map(at);
         let is_shrunk = motion.former <= SHRUNK * motion.pace.longest();
+        is_shrunk && moving * (motion.time.hi / motion.unit).abs() > SUDDEN * still
+            || self.an_argument_vanishes(lane)
+    }
+
+    /// Whether the argument of a quotient, a root or a logarithm comes to 0 within a few steps.
+    fn an_argument_vanishes(&self, lane: usize) -> bool {
+        let motion = &self.lanes[lane];
         let reach = STEPS_BEFORE * motion.former / motion.unit;
         let direction = (motion.until - motion.time).hi.signum();
-        let vanishes = |[value, rate]: [T; 2]| {
-            let (value, rate) = (at(value), at(rate));
+        self.series.arguments().any(|own| {
+            let [value, rate] = own.map(|x| x.lane(lane).leading());
             let is_faint = value != 0.0 && value.abs() < FAINT;
             let grows = value * rate * direction > 0.0;
             !is_faint && !grows && value.abs() <= rate.abs() * reach || value == 0.0
-        };
-        is_shrunk && moving * (motion.time.hi / motion.unit).abs() > SUDDEN * still
-            || self.series.arguments().any(vanishes)
+        })
     }
 
     /// Whether a motion that ends goes to infinity: motions of a field that has values and series
     /// everywhere end in no other way. With other fields its size grows, and no argument of a quotient, a
-    /// root or a logarithm comes nearer to 0.
+    /// root or a logarithm comes to 0.
     fn runs_away(&self, lane: usize) -> bool {
         if self.series.is_entire() {
             return true;
         }
-        let at = |value: T| value.lane(lane).leading();
         let motion = &self.lanes[lane];
         let direction = motion.step.leading().signum();
         let rates = self.pairs(lane).into_iter().zip(self.velocity(lane));
         let largest =
             rates.map(|(x, rate)| (x.hi, rate)).max_by(|a, b| a.0.abs().total_cmp(&b.0.abs()));
         let grows = largest.is_some_and(|(x, rate)| x * rate * direction > 0.0);
-        let mut arguments = self.series.arguments();
-        let falls =
-            |[value, rate]: [T; 2]| at(value) == 0.0 || at(value) * at(rate) * direction < 0.0;
-        grows && motion.sizes[1] > GROWN * motion.sizes[0] && !arguments.any(falls)
+        grows && motion.sizes[1] > GROWN * motion.sizes[0] && !self.an_argument_vanishes(lane)
     }
 
     /// Error at a state where a formula has no value.

@@ -28,4 +28,5 @@ pub(crate) mod shorten;
 pub(crate) mod stepper;
 mod turning;
 mod unit;
+pub(crate) mod values;
 pub(crate) mod watch;

@@ -8,6 +8,8 @@ use liouville::number::UnaryFunction;
 
 /// Multiple of the rounding of a component at its largest by which it may be wrong later.
 const PASSED: f64 = 4.0;
+/// Size below which an argument has no side of 0: its terms underflow.
+pub(crate) const FAINT: f64 = 1e-280;
 
 impl<T: SeriesNumber> BoundProgram<T> {
     /// Computes order 0 of every operation: the functions themselves.
@@ -83,6 +85,11 @@ impl<T: SeriesNumber> Series<T> {
         self.probed[self.code.state[index].rate as usize]
     }
 
+    /// Argument of a sign at the probed state.
+    pub(crate) fn probed_argument(&self, sign: usize) -> T {
+        self.probed[self.signed(sign).0 as usize]
+    }
+
     /// Value of a further function at the probed state.
     pub(crate) fn probed_output(&self, index: usize) -> T {
         self.probed[self.code.outputs[index] as usize]
@@ -106,6 +113,17 @@ impl<T: SeriesNumber> Series<T> {
     pub(crate) fn value_error(&self, row: Place, lane: usize, peaks: &[T]) -> f64 {
         let known = |peak: &T| PASSED * T::EPSILON * peak.lane(lane).leading();
         self.errors(&self.memory, lane, peaks.iter().map(known).collect())[self.index(row)]
+    }
+
+    /// First sign at the probed state that is not that of its argument, with these errors of the state.
+    pub(crate) fn turned_away(&self, lane: usize, known: Vec<f64>) -> Option<usize> {
+        let errors = self.errors(&self.probed, lane, known);
+        (0..self.signs()).find(|sign| {
+            let place = self.signed(*sign).0;
+            let value = self.probed_argument(*sign).lane(lane).leading();
+            let is_known = value.abs() > PASSED * errors[self.index(place)].max(FAINT);
+            is_known && (value > 0.0) != self.is_positive(*sign, lane)
+        })
     }
 
     /// Index of a row by its place.

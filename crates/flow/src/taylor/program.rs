@@ -123,6 +123,31 @@ impl TaylorProgram {
         self.dimension
     }
 
+    /// The same field without further functions, and without the rows that only these need.
+    pub(crate) fn without_outputs(&self) -> Self {
+        let mut makers = vec![None; self.rows];
+        for (index, instruction) in self.instructions.iter().enumerate() {
+            makers[instruction.out] = Some(index);
+        }
+        let mut needed = vec![false; self.instructions.len()];
+        let mut open = self.rates.clone();
+        while let Some(row) = open.pop() {
+            let Some(index) = makers[row].filter(|index| !needed[*index]) else { continue };
+            needed[index] = true;
+            let RowInstruction { rule, form, .. } = &self.instructions[index];
+            open.extend(rule.argument());
+            open.extend(form.linear.iter().map(|(_, x)| *x));
+            open.extend(form.products.iter().flat_map(|(_, x, y)| [*x, *y]));
+        }
+        let kept = self.instructions.iter().zip(needed).filter(|(_, needed)| *needed);
+        Self {
+            instructions: kept.map(|(instruction, _)| instruction.clone()).collect(),
+            outputs: Vec::new(),
+            presence: None,
+            ..self.clone()
+        }
+    }
+
     /// Largest degree of the sums of products, in the state and in what is no sum of products.
     pub(crate) fn degree(&self) -> usize {
         let mut degrees = vec![1usize; self.rows];

@@ -11,6 +11,8 @@ use liouville::graph::{Kernel, with_widest_vectors};
 /// Part of the way to a pole that a step may take: the terms of order n have to be below this to the n-th
 /// power, relative to the largest.
 const REACH: f64 = 0.5;
+/// Part of the state's size below which a component has a step of its own, as accurate as the state's.
+const SMALL: f64 = 1.0 / 128.0;
 /// Number of orders from the terms by which the last ones are measured, up to these.
 const APART: usize = 4;
 /// Number of last terms among which two are looked for that are not 0.
@@ -92,8 +94,15 @@ impl<T: SeriesNumber> Kernel for Resolution<'_, T> {
             return;
         }
         let last = last.next();
+        let strict = libm::exp(-stepper.kappa);
+        let lengths = T::from_lanes(|lane| stepper.lanes[lane].step);
+        let own = Powers::new(lengths * T::float(strict.recip()), stepper.series.order());
+        let [still, moving, ..] = stepper.sizes.norms;
+        let norm = still.larger(moving * lengths);
         for row in 0..stepper.dimension() {
-            last.limit(stepper.series.component(row), limits);
+            let terms = stepper.series.component(row);
+            last.limit(terms, limits);
+            own.limit_small(terms, (norm, strict), limits);
         }
     }
 }
@@ -119,6 +128,25 @@ impl<T: SeriesNumber> Powers<T> {
         Self { last: [self.last[1], self.last[1] * self.first], ..self }
     }
 
+    /// Lowers the limits of the lanes in which a component is small beside the state, and not known as
+    /// well as it: the state's own step takes no account of it.
+    #[inline(always)]
+    fn limit_small(&self, terms: &[T], (norm, reach): (T, f64), limits: &mut [f64]) {
+        let count = terms.len();
+        let step = self.first * T::float(reach);
+        let size = T::ZERO.larger(terms[0]).larger(terms[1] * step);
+        let first = T::ZERO.larger(terms[0]).larger(terms[1] * self.first);
+        let last = T::ZERO.larger(terms[count - 2] * self.last[0]);
+        let last = last.larger(terms[count - 1] * self.last[1]);
+        for (lane, limit) in limits.iter_mut().enumerate() {
+            let [size, norm, first, last] =
+                [size, norm, first, last].map(|x| x.lane(lane).leading());
+            if size < SMALL * norm && last >= first && last > TINY {
+                *limit = limit.min(resolved(terms, lane, reach));
+            }
+        }
+    }
+
     /// Lowers the limits of the lanes in which the last terms are not small beside the first.
     #[inline(always)]
     fn limit(&self, terms: &[T], limits: &mut [f64]) {
@@ -131,7 +159,7 @@ impl<T: SeriesNumber> Powers<T> {
             // Where terms underflow they tell nothing.
             let last = if last == 0.0 { first } else { last };
             if last >= first && last > TINY {
-                *limit = limit.min(resolved(terms, lane));
+                *limit = limit.min(resolved(terms, lane, REACH));
             }
         }
     }
@@ -139,12 +167,12 @@ impl<T: SeriesNumber> Powers<T> {
 
 /// Longest step over which the last two terms that are not 0 are small beside the largest of those
 /// before; one in four terms may be 0, as in functions of x⁴.
-fn resolved<T: SeriesNumber>(terms: &[T], lane: usize) -> f64 {
+fn resolved<T: SeriesNumber>(terms: &[T], lane: usize, reach: f64) -> f64 {
     let size = |n: usize| libm::log(terms[n].lane(lane).leading().abs());
     let count = terms.len();
     let last = (count.saturating_sub(LATE)..count).rev().filter(|n| size(*n) > f64::NEG_INFINITY);
     let radii = last.take(2).map(|n| {
-        let last = size(n) - n as f64 * libm::log(REACH);
+        let last = size(n) - n as f64 * libm::log(reach);
         let before = (0..n + 2 - APART.min(n)).map(|k| (size(k) - last) / (n - k) as f64);
         before.fold(f64::NEG_INFINITY, f64::max)
     });

@@ -222,6 +222,7 @@ fn are_opposite(graph: &Graph, [a, b]: [usize; 2]) -> bool {
         (Step::Binary(BinaryOperation::Sub, p, q), Step::Binary(BinaryOperation::Sub, r, s)) => {
             (p, q) == (s, r)
         }
+        (Step::Constant(p), Step::Constant(q)) => *p == -q,
         _ => negated(a) == Some(b) || negated(b) == Some(a),
     }
 }

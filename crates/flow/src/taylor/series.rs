@@ -323,6 +323,11 @@ impl<T: SeriesNumber> Series<T> {
         self.has_pulses
     }
 
+    /// Number of components of the state.
+    pub fn components(&self) -> usize {
+        self.code.state.len()
+    }
+
     /// Number of further functions.
     pub fn outputs(&self) -> usize {
         self.code.outputs.len()

@@ -45,7 +45,7 @@ pub struct Stepper<T: SeriesNumber> {
     pub(crate) series: Series<T>,
     pub(crate) kappa: f64,
     /// State, and its rounding remainder.
-    state: Vec<T>,
+    pub(crate) state: Vec<T>,
     rest: Vec<T>,
     /// Largest sizes of the components, and of the divisors, so far.
     pub(crate) peaks: Vec<T>,
@@ -69,7 +69,7 @@ pub struct Stepper<T: SeriesNumber> {
 pub(crate) struct Sizes<T> {
     /// Maximum norms of the state's coefficients of orders 0 and 1, and of the last two orders.
     pub(crate) norms: [T; 4],
-    /// 0 where all coefficients of the last order are finite, or else NaN.
+    /// 0 where all coefficients of the first and the last order are finite, or else NaN.
     pub(crate) soundness: T,
 }
 
@@ -157,7 +157,9 @@ impl<T: SeriesNumber> Stepper<T> {
 
     /// Expands all motions at their states and chooses their steps.
     pub fn expand(&mut self) {
+        self.face_signs();
         self.expand_in_units();
+        self.lengthen_units();
         self.settle_signs();
         for index in 0..T::LANES {
             let size = self.step_size(index);
@@ -288,7 +290,9 @@ impl<T: SeriesNumber> Kernel for ErrorMeasure<'_, T> {
             for (norm, n) in sizes.norms.iter_mut().zip([0, 1, order - 1, order]) {
                 *norm = norm.larger(coefficients[n]);
             }
-            sizes.soundness = sizes.soundness + coefficients[order] * T::ZERO;
+            // A constant without a value is in order 1 alone.
+            let ends = coefficients[1] + coefficients[order];
+            sizes.soundness = sizes.soundness + ends * T::ZERO;
         }
         stepper.sizes = sizes;
     }

@@ -6,16 +6,44 @@
 
 use crate::taylor::event::{Event, Sides, size, starts_positive};
 use crate::taylor::number::SeriesNumber;
+use crate::taylor::pace::Lane;
+use crate::taylor::plain::FAINT;
 use crate::taylor::shorten::known_part;
 use crate::taylor::stepper::Stepper;
 use crate::taylor::watch::{Edge, may_vanish};
 
 /// Number of steps in turn that end where they begin, from which on signs turn without end.
 pub(super) const MOST_STALLS: u32 = 64;
-/// Size below which an argument has no side: its terms underflow.
-const FAINT: f64 = 1e-280;
 
 impl<T: SeriesNumber> Stepper<T> {
+    /// Gives signs that are still to be chosen those of the values of their arguments, where these are
+    /// not 0 up to rounding: with the other sign a root or a logarithm may have no value, and the motion
+    /// no series by which `settle_signs` could choose.
+    pub(crate) fn face_signs(&mut self) {
+        let count = self.series.signs();
+        if count == 0 || self.lanes.iter().all(|lane| lane.is_settled) {
+            return;
+        }
+        self.sampled.is_present = false;
+        // An argument may have other signs in it, which come before its own.
+        for _ in 0..=count {
+            self.series.probe(&self.state);
+            let mut changes = false;
+            for lane in (0..T::LANES).filter(|lane| !self.lanes[*lane].is_settled) {
+                let size = |x: &T| T::EPSILON * x.lane(lane).leading().abs();
+                let known = || self.state.iter().zip(&self.peaks);
+                let known = known().map(|(x, peak)| size(&peak.larger(*x))).collect();
+                if let Some(sign) = self.series.turned_away(lane, known) {
+                    self.series.turn(sign, lane);
+                    changes = true;
+                }
+            }
+            if !changes {
+                return;
+            }
+        }
+    }
+
     /// Chooses the signs of motions that begin, or that have just come to a zero of an argument.
     pub(crate) fn settle_signs(&mut self) {
         let count = self.series.signs();
@@ -119,6 +147,12 @@ impl<T: SeriesNumber> Stepper<T> {
                 }
             }
         }
+    }
+
+    /// Whether the present step of a motion ends where the sign of a modulus turns.
+    pub(crate) fn ends_at_turn(&self, lane: usize) -> bool {
+        let Lane { edge, step, .. } = &self.lanes[lane];
+        matches!(edge, Some((Edge::Sign(_), after)) if step.leading().abs() >= after.leading().abs())
     }
 
     /// Turns the signs of motions that have come to a zero of their arguments.

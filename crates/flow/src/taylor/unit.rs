@@ -9,6 +9,8 @@ use crate::taylor::stepper::Stepper;
 
 /// Exponents of units are multiples of this one; it leaves the coefficients of order 34 finite.
 const GRAIN: i32 = 32;
+/// Length of a first step above which its unit is looked at; that of a motion without an end is below.
+const LONG: f64 = (1u64 << 51) as f64;
 /// Number of units that are tried at a state: each is shorter than the one before.
 const MOST_UNITS: usize = 8;
 
@@ -36,6 +38,44 @@ impl<T: SeriesNumber> Stepper<T> {
         }
         for lane in 0..T::LANES {
             self.lanes[lane].has_series = self.is_regular(lane);
+        }
+    }
+
+    /// Lengthens the units of motions that begin, and whose steps would be longer than any usual time: the
+    /// coefficients of what is slow underflow in the unit 1.
+    pub(crate) fn lengthen_units(&mut self) {
+        let mut longer = vec![false; T::LANES];
+        for (lane, longer) in longer.iter_mut().enumerate() {
+            let own = &self.lanes[lane];
+            let left = (own.until - own.time).hi.abs();
+            if own.former != 0.0 || own.unit != 1.0 || self.step_size(lane).min(left) <= LONG {
+                continue;
+            }
+            let rates = self.pairs(lane).into_iter().zip(self.velocity(lane));
+            let scales = rates.map(|(x, rate)| (x.hi / rate).abs());
+            let slowest = scales.filter(|scale| scale.is_finite()).fold(0.0, f64::max);
+            let unit = unit(slowest.min(left));
+            *longer = unit > 1.0;
+            self.lanes[lane].unit = unit.max(1.0);
+        }
+        if !longer.contains(&true) {
+            return;
+        }
+        self.set_units();
+        self.expand_at_state();
+        let mut fails = false;
+        for (lane, longer) in longer.into_iter().enumerate() {
+            if longer && !self.is_regular(lane) {
+                self.lanes[lane].unit = 1.0;
+                fails = true;
+            }
+        }
+        if fails {
+            if T::LANES == 1 {
+                self.series.clear();
+            }
+            self.set_units();
+            self.expand_at_state();
         }
     }
 

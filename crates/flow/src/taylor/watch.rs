@@ -268,7 +268,8 @@ impl<T: SeriesNumber> Stepper<T> {
             for (place, lane) in self.lanes.iter_mut().enumerate() {
                 let low = LOW * height.lane(place).leading();
                 let is_low = divisor[0].lane(place).leading().abs() < low;
-                if !is_low && !may_vanish(place) {
+                let is_large = divisor[0].lane(place).leading().abs() >= LARGE;
+                if is_large || !is_low && !may_vanish(place) {
                     continue;
                 }
                 let argument: Vec<T::One> = divisor.iter().map(|x| x.lane(place)).collect();

@@ -4,7 +4,7 @@ use clap::Args;
 use liouville::case::Case;
 use liouville::mechanics::TIME;
 use liouville::number::rational::Rational;
-use liouville_flow::{BasinRequest, Columns, FlowError, Lexicon, StateAxis, basins};
+use liouville_flow::{BasinRequest, Columns, Destiny, FlowError, Lexicon, StateAxis, basins};
 
 use super::CommandOutput;
 use super::Progress;
@@ -13,6 +13,7 @@ use super::ink::{Ink, Sheet};
 use super::motion::{MotionArgs, Threads, parse_float, parse_number, wrong_formula};
 use super::output::Ending;
 use super::starts::{GivenStart, example, given, misfit};
+use super::watching::watched;
 use crate::report::basins::BasinReport;
 
 /// Largest number of motions.
@@ -55,7 +56,13 @@ pub struct BasinArgs {
     pub threads: Threads,
 }
 
+/// Finds the basins, until a limit or Ctrl-C ends that early.
 pub fn run(options: &BasinArgs) -> Result<CommandOutput, String> {
+    watched(options.subject.limits, None, || answer(options))
+}
+
+/// Finds the basins and writes their file; returns the report, and whether motions were stopped.
+fn answer(options: &BasinArgs) -> Result<(String, bool), String> {
     let out = options.ink.output(Ending::CHARTS, &[&options.subject.case])?;
     if options.time == 0.0 || !options.time.is_finite() {
         return Err("error: --time: write a number that is not 0".to_string());
@@ -109,7 +116,8 @@ pub fn run(options: &BasinArgs) -> Result<CommandOutput, String> {
         },
     )?;
     let text = if options.subject.json { report.json()? } else { report.text() };
-    Ok(CommandOutput { text, code: 0 })
+    let is_stopped = |end: &Destiny| *end == Destiny::Ended(FlowError::Stopped);
+    Ok((text, found.ends.iter().any(is_stopped)))
 }
 
 fn axis(case: &Case, option: &str, text: &str, count: usize) -> Result<StateAxis, String> {

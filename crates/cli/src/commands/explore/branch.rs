@@ -54,7 +54,7 @@ fn parse_step(text: &str) -> Result<f64, String> {
 }
 
 pub fn run(options: &ContinueArgs) -> Result<CommandOutput, String> {
-    watched(options.search.subject.limits, || answer(options))
+    watched(options.search.subject.limits, None, || answer(options))
 }
 
 /// Follows the branch and writes its file; returns the report, and whether the branch was stopped

@@ -18,6 +18,7 @@ use super::orbit::parse_iterates;
 use super::output::{Ending, Output};
 use super::share::{Share, Target, carry_out};
 use super::starts::{GivenStart, Starts, misfit};
+use super::watching::watched;
 use super::{CommandOutput, Progress, map_exponents, write};
 
 #[derive(Clone, Debug, Args)]
@@ -55,15 +56,23 @@ pub struct ExponentsArgs {
 
 pub fn run(options: &ExponentsArgs) -> Result<CommandOutput, String> {
     if options.subject.reads_map()? {
-        return map_exponents::run(options);
+        return watched(options.subject.limits, None, || map_exponents::answer(options));
     }
     if options.iterates.is_some() {
         return Err("error: --iterates: the case is not a map, and its motions have a time\n\
                     help: give --time"
             .to_string());
     }
-    let opened = options.subject.opened()?;
-    carry_out(&ExponentsJob::new(options.clone(), opened)?, &options.share, options.target())
+    let job = || ExponentsJob::new(options.clone(), options.subject.opened()?);
+    if options.share.part.is_some() {
+        return carry_out(&job()?, &options.share, options.target());
+    }
+    watched(options.subject.limits, Some(&options.share.remedy()), || {
+        let job = job()?;
+        let units = job.compute(Part::WHOLE, options.threads.count())?;
+        let is_stopped = units.iter().any(|unit| unit.problem() == Some(&FlowError::Stopped));
+        Ok((job.report(units)?.text, is_stopped))
+    })
 }
 
 impl ExponentsArgs {
@@ -71,6 +80,11 @@ impl ExponentsArgs {
     fn time(&self) -> f64 {
         const TIME: f64 = 2000.0;
         self.time.unwrap_or(TIME)
+    }
+
+    /// Whether the command reports what was reached when it is stopped.
+    pub fn is_watched(&self) -> bool {
+        self.share.part.is_none()
     }
 
     /// File of all motions.
@@ -100,6 +114,16 @@ pub enum Unit {
         /// Exponents.
         found: Result<Spectrum, FlowError>,
     },
+}
+
+impl Unit {
+    /// Reason why the motion has no exponents.
+    fn problem(&self) -> Option<&FlowError> {
+        match self {
+            Unit::Largest(row) => row.forward.as_ref().err(),
+            Unit::Spectrum { found, .. } => found.as_ref().err(),
+        }
+    }
 }
 
 /// Exponents of motions of a case.
@@ -255,14 +279,10 @@ impl Job for ExponentsJob {
 
     fn report(&self, units: Vec<Unit>) -> Result<CommandOutput, String> {
         // Single motions may fail, but not all.
-        let problem = |unit: &Unit| match unit {
-            Unit::Largest(row) => row.forward.as_ref().err().cloned(),
-            Unit::Spectrum { found, .. } => found.as_ref().err().cloned(),
-        };
-        if let Some(first) = units.first().and_then(problem)
-            && units.iter().all(|unit| problem(unit).is_some())
+        if let Some(first) = units.first().and_then(Unit::problem)
+            && units.iter().all(|unit| unit.problem().is_some())
         {
-            return Err(self.options.subject.told(&first));
+            return Err(self.options.subject.told(first));
         }
         let (text, json) = self.written(units)?;
         if let Some(out) = &self.out {

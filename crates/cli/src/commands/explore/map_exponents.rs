@@ -5,7 +5,7 @@ use liouville_flow::{Begin, FlowError, IterateError, Launches, map_exponents};
 
 use super::exponents::ExponentsArgs;
 use super::starts::{GivenStart, misfit};
-use super::{CommandOutput, Progress, write};
+use super::{Progress, write};
 use crate::report::exponents::{map_json, map_text};
 use liouville::verdict;
 
@@ -13,8 +13,8 @@ use liouville::verdict;
 const ITERATES: u64 = 10_000;
 const LEAST: u64 = 100;
 
-/// Measures the exponents of the orbits of a map.
-pub fn run(options: &ExponentsArgs) -> Result<CommandOutput, String> {
+/// Measures the exponents of the orbits of a map; returns the report, and whether some were stopped.
+pub fn answer(options: &ExponentsArgs) -> Result<(String, bool), String> {
     let subject = &options.subject;
     let case = subject.open_with_maps()?;
     check(options)?;
@@ -46,7 +46,8 @@ pub fn run(options: &ExponentsArgs) -> Result<CommandOutput, String> {
         true => json,
         false => map_text(&case.title, &names, &found, options.spectrum),
     };
-    Ok(CommandOutput { text, code: 0 })
+    let is_stopped = |one: &Result<_, _>| matches!(one, Err(IterateError::Stopped { .. }));
+    Ok((text, found.iter().any(is_stopped)))
 }
 
 /// Refuses what maps do not have.

@@ -250,7 +250,9 @@ impl MotionCommand {
     fn limits(&self) -> LimitArgs {
         match self {
             // it reports what was reached
-            Self::Continue(_) | Self::Orbit(_) => LimitArgs::default(),
+            Self::Continue(_) | Self::Orbit(_) | Self::Basins(_) => LimitArgs::default(),
+            Self::Section(options) if options.share.part.is_none() => LimitArgs::default(),
+            Self::Exponents(options) if options.is_watched() => LimitArgs::default(),
             _ => self.subject().limits,
         }
     }

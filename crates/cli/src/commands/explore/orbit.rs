@@ -111,7 +111,7 @@ pub fn parse_iterates(text: &str) -> Result<u64, String> {
 
 /// Follows the motions, until a limit or Ctrl-C ends them early.
 pub fn run(options: &OrbitArgs) -> Result<CommandOutput, String> {
-    watched(options.subject.limits, || answer(options))
+    watched(options.subject.limits, None, || answer(options))
 }
 
 /// Follows the motions and writes their file; returns the report, and whether some were stopped.

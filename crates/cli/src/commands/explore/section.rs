@@ -10,7 +10,7 @@ use clap::Args;
 use liouville::case::{Case, FixedLine};
 use liouville::part::Part;
 use liouville_draw::{Plot, Text, plain};
-use liouville_flow::{SectionOrbit, SurfaceOrbit};
+use liouville_flow::{FlowError, SectionOrbit, SurfaceOrbit};
 use serde::{Deserialize, Serialize};
 
 use super::chart::parse_size;
@@ -23,6 +23,7 @@ use super::motion::{
 use super::output::{Ending, Output};
 use super::share::{Share, Target, carry_out};
 use super::starts::Starts;
+use super::watching::watched;
 use super::{CommandOutput, andoyer, surface, write};
 
 #[derive(Clone, Debug, Args)]
@@ -165,19 +166,35 @@ pub fn run(options: &SectionArgs) -> Result<CommandOutput, String> {
             Target { out: options.ink.out.as_deref(), threads },
         );
     }
+    watched(options.subject.limits, Some(&options.share.remedy()), || answer(options))
+}
+
+/// Follows the motions and writes their file; returns the report, and whether some were stopped.
+fn answer(options: &SectionArgs) -> Result<(String, bool), String> {
     let first = &options.subject;
     let others =
         options.others.iter().map(|case| MotionArgs { case: case.clone(), ..first.clone() });
     let subjects: Vec<MotionArgs> = [first.clone()].into_iter().chain(others).collect();
     let cases: Vec<Case> = subjects.iter().map(MotionArgs::open).collect::<Result<_, _>>()?;
     let layout = Layout::new(options, cases.len())?;
-    let all = subjects.iter().zip(&cases);
-    let drawn = all.map(|(subject, case)| {
+    let (mut all, mut is_stopped) = (Vec::new(), false);
+    for (subject, case) in subjects.iter().zip(&cases) {
         let units =
             compute(case, subject, options, layout.wish, Part::WHOLE, options.threads.count())?;
-        drawn(case, subject, options, layout.wish, units)
-    });
-    layout.finish(options, drawn.collect::<Result<_, _>>()?)
+        is_stopped |= units.iter().any(|unit| unit.problem() == Some(&FlowError::Stopped));
+        all.push(drawn(case, subject, options, layout.wish, units)?);
+    }
+    Ok((layout.finish(options, all)?.text, is_stopped))
+}
+
+impl Unit {
+    /// Reason why the motion ended early.
+    fn problem(&self) -> Option<&FlowError> {
+        match self {
+            Unit::Andoyer { orbit, .. } => orbit.problem.as_ref(),
+            Unit::Surface { orbit, .. } => orbit.problem.as_ref(),
+        }
+    }
 }
 
 /// Follows the motions of a part.

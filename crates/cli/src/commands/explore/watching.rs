@@ -9,9 +9,11 @@ use liouville_flow::stoppable;
 use super::super::limits::{STOPPED, Stop, signals};
 use super::{CommandOutput, LimitArgs};
 
-/// Runs work that returns its report, and whether it was stopped before its end.
+/// Runs work that returns its report, and whether it was stopped before its end; of a job that may be done
+/// in parts the remedy is given.
 pub fn watched(
     limits: LimitArgs,
+    of_parts: Option<&str>,
     work: impl FnOnce() -> Result<(String, bool), String>,
 ) -> Result<CommandOutput, String> {
     limits.check()?;
@@ -25,7 +27,7 @@ pub fn watched(
     };
     if is_stopped {
         let stopped = "error: not finished: stopped".to_string();
-        anstream::eprintln!("{}", stop.map_or(stopped, |stop| stop.message(None)));
+        anstream::eprintln!("{}", stop.map_or(stopped, |stop| stop.message(of_parts)));
     }
     Ok(CommandOutput { text, code: if is_stopped { STOPPED } else { 0 } })
 }

@@ -69,6 +69,22 @@ fn exponents_of_a_map_are_per_iterate() {
 }
 
 #[test]
+fn exponents_of_a_map_end_where_it_has_no_invertible_derivative() {
+    let tent = "title = 'tent'\n[state]\nx = '-2..2'\n[map]\nx = '1 - 2*abs(x)'\n";
+    let flat = "title = 'flat'\n[state]\nx = '-2..2'\ny = '-2..2'\n[map]\nx = '0*x'\n\
+        y = '-y'\n";
+    let folder = folder("underivable", &[("tent.toml", tent), ("flat.toml", flat)]);
+    for (file, begin, message) in [
+        ("tent.toml", "1/4", "the map has no derivative after 2 iterates, at x = 0.0"),
+        ("flat.toml", "1,1", "det DΦ is 0 after 0 iterates, at x = 1.0"),
+    ] {
+        let case = folder.join(file).display().to_string();
+        let found = liouville(&["motion", "exponents", &case, "--start", begin]).assert();
+        found.code(2).stderr(contains(message));
+    }
+}
+
+#[test]
 fn an_orbit_that_is_stopped_says_where() {
     let text = "title = 'turn'\n[state]\nx = '-2..2'\ny = '-2..2'\n[field]\n\"x'\" = 'y'\n\
         \"y'\" = '-x'\n";
@@ -83,6 +99,21 @@ fn an_orbit_that_is_stopped_says_where() {
         .stderr(contains("error: not finished: stopped after 0.3 s"));
     let rows = fs::read_to_string(&out).expect("what comes before");
     assert!(rows.lines().count() > 2, "{rows}");
+    // Crossings, and motions that come to their ends before.
+    let surface = ["--section", "x=0", "--axes", "y", "--crossings", "1000000"];
+    let section = ["motion", "section", &case, "--start", "1,0", "--within", "0.3"];
+    let found = liouville(&[&section[..], &surface, &["--out", &out]].concat()).assert();
+    found.code(3).stdout(contains("the motion was stopped"));
+    let rows = fs::read_to_string(&out).expect("what comes before");
+    assert!(rows.lines().count() > 2, "{rows}");
+    // At 0 nothing turns, tangent vectors neither.
+    let twist = text.replace("'y'\n", "'y*(x^2 + y^2)'\n").replace("'-x'", "'-x*(x^2 + y^2)'");
+    let case = folder.join("twist.toml").display().to_string();
+    fs::write(&case, twist).expect("a case");
+    let exponents = ["motion", "exponents", &case, "--start", "0,0", "--start", "1,0"];
+    let long = ["--time", "1e8", "--one-way", "--within", "0.3"];
+    let found = liouville(&[&exponents[..], &long].concat()).assert();
+    found.code(3).stdout(contains("0,0").and(contains("stopped")));
 }
 
 #[test]

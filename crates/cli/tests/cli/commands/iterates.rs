@@ -112,6 +112,37 @@ fn an_orbit_that_escapes_says_where() {
 }
 
 #[test]
+fn small_values_of_extremes_and_hyperbolic_functions_keep_their_digits() {
+    for (name, image, expected) in [
+        ("max", "max(2*x, -1)", 2f64.powi(60) * 1e-20),
+        ("min", "min(1, 2*x)", 2f64.powi(60) * 1e-20),
+        ("tanh", "2*tanh(x)", 1.1529215e-2),
+        ("sinh", "2*sinh(x)", 1.1529215e-2),
+        ("modulus", "-2*abs(x)", -(2f64.powi(60)) * 1e-20),
+    ] {
+        let path = map(&format!("small-{name}"), "x = '-9..9'", &format!("x = '{image}'"));
+        let path = path.to_str().expect("a path");
+        let arguments = ["motion", "orbit", path, "--start", "1e-20", "--iterates", "60", "--json"];
+        for precision in ["float", "double-double"] {
+            let found = json(&[&arguments[..], &["--precision", precision]].concat(), 0);
+            let end = found["end"]["x"][0].as_str().and_then(|x| x.parse::<f64>().ok());
+            let end = end.expect("a number");
+            assert!((end / expected - 1.0).abs() < 1e-4, "{image}, {precision}: {end}");
+        }
+    }
+}
+
+#[test]
+fn an_orbit_that_underflows_does_not_escape() {
+    let path = map("underflow", "x = '-9..9'\ny = '-9..9'", "x = 'x/2'\ny = 'x^2/x'");
+    let path = path.to_str().expect("a path");
+    liouville(&["motion", "orbit", path, "--start", "1,1", "--iterates", "2000"])
+        .assert()
+        .code(2)
+        .stderr(contains("too large or too small for f64").and(contains("escapes").not()));
+}
+
+#[test]
 fn maps_and_flows_have_their_own_options() {
     let refuse = |arguments: &[&str], message: &str| {
         liouville(arguments).assert().code(2).stderr(contains(message));

@@ -3,12 +3,14 @@
 //! The function is known as a polynomial on each piece. A piece on which bounds of its terms exclude
 //! zeros, turns or bends is simple; others are halved. On a simple piece the sign at the ends, and at
 //! the extremum between them if there is one, brackets each root; Newton's method finds it, guarded by
-//! bisection. An extremum whose value is 0 up to rounding is a tangency, not a crossing.
+//! bisection. An extremum whose value is 0 up to rounding is a tangency, not a crossing. Where a modulus in
+//! the function turns its sign, the two pieces that meet decide together.
 
 mod ends;
 mod pieces;
 mod roots;
 mod sides;
+mod turn;
 
 pub use ends::Ends;
 pub(crate) use roots::{extremum, turns};
@@ -35,6 +37,15 @@ pub enum Event<T> {
         /// Time after the beginning of the piece.
         after: T,
     },
+}
+
+impl<T: Copy> Event<T> {
+    /// Time after the beginning of the piece.
+    pub fn after(self) -> T {
+        match self {
+            Event::Crossing { after, .. } | Event::Tangency { after } => after,
+        }
+    }
 }
 
 /// Evaluates a polynomial and its derivative.

@@ -8,7 +8,7 @@ use crate::taylor::number::SeriesNumber;
 
 /// Multiple of the error of a value at which two pieces meet, above which they disagree: one part for
 /// either value, and two for the higher coefficients of the last piece, which have errors of their own.
-const DOUBTS: f64 = 4.0;
+pub(super) const DOUBTS: f64 = 4.0;
 
 /// Side of 0 on which a function was last seen, from piece to piece.
 ///
@@ -24,12 +24,14 @@ pub struct Sides {
     positive: Option<bool>,
     /// Rounding of the terms of the last piece.
     rounding: f64,
+    /// Side before a zero at the end of the last piece, which was left to the next one.
+    pub(super) open: Option<bool>,
 }
 
 impl Sides {
     /// The sides of a function that is known to come from this side.
     pub fn on(positive: bool) -> Self {
-        Self { positive: Some(positive), rounding: 0.0 }
+        Self { positive: Some(positive), rounding: 0.0, open: None }
     }
 
     /// Whether a lane has no event, where `events` would find none. Remembers the side at its end.
@@ -43,6 +45,7 @@ impl Sides {
         let simple = ends.shape.is_simple(lane);
         if !simple
             || !known
+            || self.open.is_some()
             || self.positive != Some(begin)
             || length == 0.0
             || begin != end
@@ -50,7 +53,7 @@ impl Sides {
         {
             return false;
         }
-        *self = Self { positive: Some(end), rounding };
+        *self = Self { positive: Some(end), rounding, open: None };
         true
     }
 
@@ -68,7 +71,7 @@ impl Sides {
         let rounding = size(polynomial, length) * ROUNDINGS * T::EPSILON;
         let begin = self.begin(polynomial, length, rounding, &doubt);
         let end = value(polynomial, length).0.leading() > 0.0;
-        *self = Self { positive: Some(end), rounding };
+        *self = Self { positive: Some(end), rounding, open: None };
         let leading: Vec<f64> = polynomial.iter().map(|own| own.leading()).collect();
         let (mut from, mut side) = (T::ZERO, begin);
         let mut events = Vec::new();
@@ -83,7 +86,7 @@ impl Sides {
     }
 
     /// Side on which a piece begins.
-    fn begin<T: SeriesNumber<One = T>>(
+    pub(super) fn begin<T: SeriesNumber<One = T>>(
         &self,
         polynomial: &[T],
         length: T,

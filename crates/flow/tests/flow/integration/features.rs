@@ -6,6 +6,7 @@ use liouville::case::Case;
 use liouville::number::double_double::DoubleDouble;
 use liouville_flow::{Precision, orbit};
 
+use crate::integration::moduli::followed;
 use crate::integration::{follow, parse, start};
 
 const BOTH: [Precision; 2] = [Precision::Float, Precision::Pair];
@@ -65,5 +66,16 @@ fn units_of_time_do_not_matter() {
                 assert!((*x - *y).hi.abs() < 1e-13, "{exponent} {precision:?}: {x:?} {y:?}");
             }
         }
+    }
+}
+
+#[test]
+fn a_slow_component_keeps_its_digits_beside_a_clock() {
+    for slow in [3, 9, 12, 20, 30] {
+        let case = field(&[("x", &format!("-x/10^{slow}")), ("y", "1")]);
+        let time = 10f64.powi(slow + 1);
+        let end = followed(&case, "x=1 y=0", time, Precision::Float).expect("a motion").end;
+        let error = end[0].hi / (-10f64).exp() - 1.0;
+        assert!(error.abs() < 1e-13, "10^-{slow}: {error:e}");
     }
 }

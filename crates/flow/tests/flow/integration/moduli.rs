@@ -22,7 +22,12 @@ fn field(rates: &[(&str, &str)]) -> Case {
     parse(&format!("title = 'a'\n[state]\n{state}[field]\n{field}"))
 }
 
-fn followed(case: &Case, begin: &str, time: f64, precision: Precision) -> Result<Orbit, FlowError> {
+pub(super) fn followed(
+    case: &Case,
+    begin: &str,
+    time: f64,
+    precision: Precision,
+) -> Result<Orbit, FlowError> {
     orbit(case, start(case, begin), DoubleDouble::from_f64(time), precision)
 }
 
@@ -272,6 +277,87 @@ fn a_level_does_not_depend_on_what_is_beside_it() {
         let gap = x - (100.0 + 0.8f64.atan2(0.6)).cos();
         assert!(gap.abs() < error, "{a}, {z}: {gap:e}");
     }
+}
+
+#[test]
+fn motions_begin_on_either_side_of_a_modulus_under_a_root_or_logarithm() {
+    // Integrals from −1 to −1/2
+    for (rate, integral) in [
+        ("sqrt(abs(x))", (2.0 - 0.5f64.sqrt()) / 3.0),
+        ("abs(x)^(-1/2)", 2.0 - 2f64.sqrt()),
+        ("(1 + 2*abs(x))^(1/2)", 3f64.sqrt() - 8f64.sqrt() / 3.0),
+        ("max(x, 1/4)^(3/2)", 0.0625),
+        ("asin(max(x, 0)/3)", 0.0),
+        ("sqrt(abs(abs(x) - 2) - x)", 0.5 * 2f64.sqrt()),
+        ("log(1/5 + abs(x))", 1.2 * 1.2f64.ln() - 0.7 * 0.7f64.ln() - 0.5),
+        ("tanh(900) - 1", 0.0),
+    ] {
+        let case = field(&[("x", "1"), ("y", rate)]);
+        for precision in BOTH {
+            let error = gap(&case, "x=-1 y=0", 0.5, precision, [-0.5, integral]);
+            assert!(error < 1e-14, "{rate}, {precision:?}: {error:e}");
+        }
+    }
+    let circle = field(&[("x", "y"), ("y", "-x")]);
+    let found = crossings(&circle, "(1 + abs(x))^(3/2) = 2^(1/2)", "x=-1 y=0", 4);
+    let first = PI / 2.0 + (2f64.cbrt() - 1.0).asin();
+    assert!((found[1].0 - first).abs() < 1e-14 && found.len() == 4, "{found:?}");
+}
+
+#[test]
+fn moduli_that_are_touched_are_not_crossed() {
+    let circle = field(&[("x", "y"), ("y", "-x")]);
+    let section = |surface: &str, crossings: usize| {
+        let lexicon = || Lexicon::new(&circle);
+        let surface = CrossingSurface::read(lexicon(), surface).expect("a surface");
+        let axes = Columns::read(lexicon(), "x").expect("axes");
+        let (direction, skip, backwards) = (Direction::Both, 0, false);
+        let request = SurfaceRequest {
+            surface: &surface,
+            axes: &axes,
+            direction,
+            crossings,
+            skip,
+            backwards,
+        };
+        let begin = [Ok(start(&circle, "x=1 y=1/10"))];
+        let found = surface_section(&circle, &request, &begin, 1, &|_| ()).expect("a section");
+        found.into_iter().next().expect("one motion")
+    };
+    // x is 0 every half turn, and y in between.
+    for (surface, touched, places) in [
+        ("abs(x)*y = 0", true, 0.0),
+        ("x*abs(x) = 0", false, 0.5),
+        ("x*abs(x)*y*abs(y) = 0", false, 0.0),
+    ] {
+        let found = section(surface, 5);
+        assert_eq!(found.tangencies > 0, touched, "{surface}: {}", found.tangencies);
+        let (first, gap) = (0.1f64.atan(), if places == 0.0 && !touched { 0.5 } else { 1.0 });
+        for (index, crossing) in found.crossings.iter().enumerate() {
+            let expected = first + PI * (places + gap * index as f64);
+            assert!((crossing.time - expected).abs() < 1e-7, "{surface}: {}", crossing.time);
+        }
+    }
+    for surface in ["abs(x - 1/3) = 0", "max(x - 1/3, 1/3 - x) = 0", "abs(x)^3 = 0"] {
+        let found = section(surface, 2);
+        assert!(found.crossings.is_empty() && found.tangencies > 2, "{surface}: {found:?}");
+    }
+    for surface in ["sqrt(abs(x)) = 2", "atan2(y, x) = 4", "x^21 = 0"] {
+        let problem = section(surface, 2).problem;
+        assert!(matches!(problem, Some(FlowError::SectionEnds { .. })), "{surface}: {problem:?}");
+    }
+}
+
+#[test]
+fn a_motion_runs_away_whatever_falls_beside_it() {
+    for rate in ["-y/(1 + y^2)", "1/(1 + (y - 1)^2)", "log(2 + y) - y", "-y"] {
+        let case = field(&[("x", "x^2"), ("y", rate)]);
+        let end = followed(&case, "x=1 y=1", 5.0, Precision::Float);
+        assert!(matches!(end, Err(FlowError::RunsAway { .. })), "{rate}: {end:?}");
+    }
+    let pole = field(&[("x", "1/(1 - x)"), ("y", "1")]);
+    let end = followed(&pole, "x=0 y=0", 5.0, Precision::Float);
+    assert!(matches!(end, Err(FlowError::Singular { .. })), "{end:?}");
 }
 
 #[test]

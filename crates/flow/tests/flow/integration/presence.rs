@@ -55,8 +55,16 @@ fn roots_may_touch_what_quotients_may_not() {
 
 #[test]
 fn starts_without_a_value_are_told_by_their_formula() {
-    for rate in ["1/x", "x^2/x", "ln(x)", "0*ln(x)", "√(x - 1)", "0*√(x - 1)", "(x - 1)^(1/3)*0"]
-    {
+    for rate in [
+        "1/x",
+        "x^2/x",
+        "ln(x)",
+        "0*ln(x)",
+        "√(x - 1)",
+        "0*√(x - 1)",
+        "(x - 1)^(1/3)*0",
+        "1 + ln(-2)",
+    ] {
         let case = case(rate);
         let begin = || start(&case, "x=0 y=1");
         let second = DoubleDouble::from_f64(1.0);
