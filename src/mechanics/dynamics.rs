@@ -135,6 +135,11 @@ pub(super) trait Dynamics {
         None
     }
 
+    /// Computes the function of inertia by which the accelerations of a body are divided; `None` for other systems.
+    fn inertia_divisor<T: Scalar>(&self, _: &Configuration<'_, T>) -> Option<T> {
+        None
+    }
+
     /// Computes χ with div v = (χ,ω) on the level.
     fn chi<T: Scalar>(&self, _: &Phase<'_, T>) -> Option<[T; 3]> {
         None

@@ -111,9 +111,9 @@ impl Phase<'_, Expr> {
         let formulas = self.model().equations_of_motion().into_iter();
         let written = formulas.flat_map(|formula| self.evaluate_literally(formula).components());
         let written: Vec<Expr> = written.collect();
-        let divisor = self.model().system.reference_density(&self.configuration);
+        let divisor = self.model().system.inertia_divisor(&self.configuration);
         values.extend(match divisor.filter(|_| !has_moduli(&written)) {
-            // By this alone the rates of a body are divided.
+            // Whatever its form, the rate of γ is divided by D_T.
             Some(divisor) => {
                 let inverse = literally(|| divisor.apply(UnaryFunction::Recip));
                 left_out(&[&written, self.field()].concat(), &[inverse])

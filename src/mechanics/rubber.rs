@@ -99,6 +99,11 @@ impl Dynamics for Rubber {
         unit.dot(&unit)
     }
 
+    fn inertia_divisor<T: Scalar>(&self, at: &Configuration<'_, T>) -> Option<T> {
+        let (r, _) = self.0.shape.contact(at);
+        Some(self.inertia_along_normal(at, &r))
+    }
+
     fn reference_density<T: Scalar>(&self, at: &Configuration<'_, T>) -> Option<T> {
         Some(self.volume(at))
     }

@@ -69,12 +69,21 @@ impl Rubber {
 
     /// Computes the reference density ρ₀ = det Ĩ (γ,Ĩ⁻¹γ) D_T.
     pub(super) fn volume<T: Scalar>(&self, at: &Configuration<'_, T>) -> T {
-        let gamma = normal(at);
         let (r, slope) = self.0.shape.contact(at);
-        let volume = gamma.dot(&(adjugate(&self.0.inertia_at(at, &r)) * gamma));
+        let volume = self.inertia_along_normal(at, &r);
         match self.0.gamma_across(at, &slope) {
             None => volume,
             Some(big_gamma) => volume * big_gamma.determinant(),
         }
+    }
+
+    /// Computes (γ, adj Ĩ γ).
+    pub(super) fn inertia_along_normal<T: Scalar>(
+        &self,
+        at: &Configuration<'_, T>,
+        r: &Vector3<T>,
+    ) -> T {
+        let gamma = normal(at);
+        gamma.dot(&(adjugate(&self.0.inertia_at(at, r)) * gamma))
     }
 }

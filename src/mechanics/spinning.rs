@@ -189,6 +189,10 @@ impl Dynamics for Spinning {
     }
 
     /// Returns D_T det Ĩ.
+    fn inertia_divisor<T: Scalar>(&self, at: &Configuration<'_, T>) -> Option<T> {
+        Some(self.pose(at).determinant)
+    }
+
     fn reference_density<T: Scalar>(&self, at: &Configuration<'_, T>) -> Option<T> {
         Some(self.pose(at).determinant * self.0.gamma_determinant(at))
     }
