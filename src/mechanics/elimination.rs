@@ -120,6 +120,7 @@ pub fn solve_positive<T: Scalar>(mut a: Vec<Vec<T>>, mut b: Vec<T>) -> Vec<T> {
     for k in 0..b.len() {
         let (above, below) = a.split_at_mut(k + 1);
         let (pivot_row, pivot_value) = (&above[k], b[k]);
+        pivot_row[k].note_divisor();
         let present: Vec<usize> = (k..b.len()).filter(|j| !pivot_row[*j].is_absent()).collect();
         // A value that is defined nowhere makes all that it touches undefined, zeros too.
         let vanishes = |x: T| (x * T::zero()).is_absent();
@@ -169,7 +170,9 @@ pub fn solve_by_minors<T: Scalar>(a: &[Vec<T>], sides: &[Vec<T>]) -> Vec<Vec<T>>
     if n > MOST_COFACTORS {
         return sides.iter().map(|b| solved_by_powers(a, b)).collect();
     }
-    let inverse = determinant(a).recip();
+    let whole = determinant(a);
+    whole.note_divisor();
+    let inverse = whole.recip();
     let without = |row: usize, column: usize| {
         let rows = (0..n).filter(|i| *i != row);
         let minor: Vec<Vec<T>> =
@@ -192,6 +195,7 @@ fn solved_by_powers<T: Scalar>(a: &[Vec<T>], b: &[T]) -> Vec<T> {
         let next = a.iter().map(|row| dot(row, &sum));
         sum = next.zip(b).map(|(x, b)| x + coefficient * *b).collect();
     }
+    last.note_divisor();
     let inverse = -last.recip();
     sum.into_iter().map(|x| x * inverse).collect()
 }

@@ -10,7 +10,7 @@ use super::Phase;
 use super::model::{Model, ParameterOrigin};
 use super::recipe::{Draw, SamplerSpec};
 use crate::formula::Value;
-use crate::graph::{Expr, has_moduli, left_out, literally, record};
+use crate::graph::{Expr, literally, record};
 use crate::number::UnaryFunction;
 use crate::number::rational::Rational;
 use crate::scalar::Scalar;
@@ -111,15 +111,7 @@ impl Phase<'_, Expr> {
         let formulas = self.model().equations_of_motion().into_iter();
         let written = formulas.flat_map(|formula| self.evaluate_literally(formula).components());
         let written: Vec<Expr> = written.collect();
-        let divisor = self.model().system.inertia_divisor(&self.configuration);
-        values.extend(match divisor.filter(|_| !has_moduli(&written)) {
-            // Whatever its form, the rate of γ is divided by D_T.
-            Some(divisor) => {
-                let inverse = literally(|| divisor.apply(UnaryFunction::Recip));
-                left_out(&[&written, self.field()].concat(), &[inverse])
-            }
-            None => self.hidden_in_motion(&written),
-        });
+        values.extend(self.hidden_in_motion(&written));
         values
     }
 }

@@ -1,8 +1,10 @@
 //! Recorded values without which formulas, as written, have none.
 
 use super::phase::Phase;
+use super::system::System;
 use crate::formula::{Exponents, Formula, Symbol, Value};
-use crate::graph::{Expr, has_moduli, left_out, literally, logarithms_times_zero};
+use crate::graph::{Expr, divisors_of, has_moduli, left_out, literally, logarithms_times_zero};
+use crate::number::UnaryFunction;
 use crate::scalar::Scalar;
 
 impl<T: Scalar> Phase<'_, T> {
@@ -55,10 +57,23 @@ impl Phase<'_, Expr> {
     /// A determinant of masses may be 0 at all states, though not by its form. A modulus may hide the sign of
     /// more, so that all that is written is asked then.
     pub fn hidden_in_motion(&self, written: &[Expr]) -> Vec<Expr> {
-        let motion = self.motion_as_written();
-        match has_moduli(written) {
-            true => motion,
-            false => left_out(&[written, self.field()].concat(), &motion),
+        if has_moduli(written) {
+            return self.motion_as_written();
+        }
+        let inverse = |divisor: Expr| literally(|| divisor.apply(UnaryFunction::Recip));
+        let inverses: Vec<Expr> = self.divisors().into_iter().map(inverse).collect();
+        left_out(&[written, self.field()].concat(), &inverses)
+    }
+
+    /// Records what accelerations are divided by: of a body the function of inertia, as the rate of γ shows D_T.
+    fn divisors(&self) -> Vec<Expr> {
+        let system = &self.model().system;
+        match (system, system.inertia_divisor(&self.configuration)) {
+            (_, Some(divisor)) => vec![divisor],
+            (System::Lagrangian(_), None) => divisors_of(|| {
+                self.with(&[], &self.state()).field();
+            }),
+            _ => Vec::new(),
         }
     }
 

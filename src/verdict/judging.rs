@@ -204,7 +204,7 @@ impl Judging<'_> {
         self.check_slopes(sampler)?;
         sampler.check_coverage(self.case)?;
         let mut warnings = physics::warnings(&physical);
-        warnings.extend(self.states_without_motion(&states));
+        warnings.extend(self.states_without_motion(&states)?);
         warnings.extend(self.check_quadratures()?);
         if sampler.is_numerical() {
             warnings.push(
@@ -219,21 +219,29 @@ impl Judging<'_> {
         Ok(warnings)
     }
 
-    /// Returns a warning on drawn states at which the equations of motion have no value, as a mass is 0 there.
-    fn states_without_motion(&self, states: &[Balls<TAPE_LANES>]) -> Option<String> {
-        let hidden = self.common.motion.get(self.case.model.undetermined.len()..)?;
+    /// Returns a warning on drawn states at which the equations of motion have no value, as a mass is 0 there; an
+    /// error if masses are 0 at all of them.
+    fn states_without_motion(
+        &self,
+        states: &[Balls<TAPE_LANES>],
+    ) -> Result<Option<String>, JudgeError> {
+        let listed = self.case.model.undetermined.len();
+        let hidden = self.common.motion.get(listed..).unwrap_or_default();
         let written = [hidden, &self.common.requirement].concat();
         if written.is_empty() {
-            return None;
+            return Ok(None);
         }
         let values = self.run(&written).at(&Ball::<TAPE_LANES>, states);
         let is_state = |lane: &usize| states.iter().all(|block| block.is_defined(*lane));
         let moves = |lane: &usize| (0..written.len()).all(|k| values.output(k).is_defined(*lane));
         let all = (0..TAPE_LANES).filter(is_state).count();
         let count = (0..TAPE_LANES).filter(is_state).filter(|lane| !moves(lane)).count();
-        (count > 0).then(|| {
+        if count > 0 && count == all && !hidden.is_empty() {
+            return Err(JudgeError::Singular(TAPE_LANES as u64));
+        }
+        Ok((count > 0).then(|| {
             format!("at {count} of {all} states the equations of motion have no value: these do not count")
-        })
+        }))
     }
 
     /// Returns the error that states do not fulfil an equation of the level.

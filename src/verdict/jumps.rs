@@ -40,12 +40,14 @@ impl Judging<'_> {
     pub(super) fn jump(&self, sampler: &Sampler, values: &[Expr]) -> Result<Option<String>, Fault> {
         let Some(digits) = may_jump(self.graph, values) else { return Ok(None) };
         let Some(choices) = combinations(sampler.recipes()) else { return Ok(None) };
+        // All choices together take as long as one.
+        let lines = (digits.lines() / choices.len().max(1) as u64).max(1);
         for fixed in choices {
             let (graph, groups) = sampler.compose(self.graph, &[values.to_vec()], &fixed)?;
             let groups = groups.concat();
             // What jumps for other values alone may be a constant for these.
             let found = match may_jump(&graph, &groups) {
-                Some(_) => self.jump_of(sampler, &graph, &groups, digits),
+                Some(_) => self.jump_of(sampler, &graph, &groups, (digits, lines)),
                 None => None,
             };
             if found.is_some() {
@@ -55,13 +57,13 @@ impl Judging<'_> {
         Ok(None)
     }
 
-    /// Finds a state near which a value jumps that is a function of the draws.
+    /// Finds a state near which a value jumps that is a function of the draws, on so many lines.
     fn jump_of(
         &self,
         sampler: &Sampler,
         graph: &Graph,
         values: &[Expr],
-        digits: Digits,
+        (digits, lines): (Digits, u64),
     ) -> Option<String> {
         let tape = Tape::new(graph, values);
         let mut along = match digits {
@@ -69,7 +71,6 @@ impl Judging<'_> {
             Digits::Double => Along::Double(Evaluator::new(&tape, DoubleDoubles)),
         };
         let mut precise = Evaluator::new(&tape, ArbBall::new(PRECISION));
-        let lines = if digits == Digits::Double { FEW_LINES } else { LINES };
         (0..lines).find_map(|line| {
             let ends = [2 * line, 2 * line + 1].map(|index| sampler.nearest_draws(index));
             let line = Line::between(sampler, ends, graph.inputs());
@@ -93,7 +94,7 @@ impl Judging<'_> {
         let digits =
             may_jump(self.graph, &self.common.level).filter(|_| !sampler.is_numerical())?;
         let state = &sampler.made()[self.case.model.free_components()..];
-        let place = self.jump_of(sampler, sampler.graph(), state, digits);
+        let place = self.jump_of(sampler, sampler.graph(), state, (digits, digits.lines()));
         place.map(|place| {
             format!("near {place} the level jumps: motions across the jump are not covered")
         })
@@ -106,6 +107,16 @@ enum Digits {
     Single,
     /// Twice as many: a square that is written out is lost in f64 where it is small.
     Double,
+}
+
+impl Digits {
+    /// Number of lines that are followed.
+    fn lines(self) -> u64 {
+        match self {
+            Self::Single => LINES,
+            Self::Double => FEW_LINES,
+        }
+    }
 }
 
 /// Values at points of lines.

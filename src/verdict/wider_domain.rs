@@ -21,8 +21,8 @@ use super::run::{Doubles, Values};
 use super::sampler::{Sampler, TAPE_LANES};
 use crate::claim::{LevelSubset, Need};
 use crate::graph::{Expr, Fault, Step};
-use crate::number::UnaryFunction;
 use crate::number::ball::Ball;
+use crate::number::{BinaryOperation, UnaryFunction};
 
 /// A claim that holds at its own place, with the positions of its outputs for a wider one.
 struct Candidate<'f, 'r> {
@@ -162,14 +162,11 @@ impl Judging<'_> {
     /// Whether what a claim presupposes is known at a wider place as far as at its own: z − 2 + |z − 2| is not 0
     /// on z = 3, and is for z < 2.
     fn meets_conditions(&self, sampler: &Sampler, own: &Candidate<'_, '_>) -> Result<bool, Fault> {
-        let is_asked = |need: &Need| {
-            matches!(
-                need,
-                Need::Rank { .. }
-                    | Need::NotZero { .. }
-                    | Need::Nonzero { .. }
-                    | Need::Zeros { .. }
-            )
+        // What is not 0 at states of the level is 0 on no open set if it is one analytic function.
+        let is_asked = |need: &Need| match need {
+            Need::NotZero { .. } | Need::Zeros { .. } => true,
+            Need::Rank { .. } | Need::Nonzero { .. } => !self.is_one_function(need.values()),
+            _ => false,
         };
         for condition in own.item.conditions.iter().filter(|condition| is_asked(&condition.need)) {
             if let Some(failure) = self.failure(sampler, own.item, condition)? {
@@ -180,6 +177,22 @@ impl Judging<'_> {
             }
         }
         Ok(true)
+    }
+
+    /// Whether values are made by operations that are analytic wherever they have a value, on a set that is
+    /// connected.
+    fn is_one_function(&self, values: Vec<Expr>) -> bool {
+        use UnaryFunction::{Atan, Cos, Exp, Neg, Recip, Sin};
+        let reached = self.graph.reached(values);
+        let is_analytic = |step: Step<'_>| match step {
+            Step::Constant(_) | Step::Input(_) => true,
+            Step::Unary(function, _) => {
+                matches!(function, Neg | Recip | Exp | Sin | Cos | Atan)
+            }
+            Step::Binary(operation, ..) => operation != BinaryOperation::Pow,
+            Step::Power(_, exponent) => exponent.to_integer().is_some(),
+        };
+        self.graph.steps().zip(reached).all(|(step, reached)| !reached || is_analytic(step))
     }
 
     /// Adds a wider place to those where a claim holds, if it does.

@@ -68,17 +68,17 @@ fn reversors_of_linkages_are_proved_without_states() {
         format!(
             "system = \"nonholonomic\"\n[state]\np = \"vector(2, -1..1)\"\nq = \"vector(2, -1..3)\"\n\
              \"p'\" = \"vector(2, -1..1)\"\n\"q'\" = \"vector(2, -1..1)\"\n\
-             [lagrangian]\nkinetic = \"{kinetic}\"\npotential = \"p2 + q2\"\n\
+             [lagrangian]\nkinetic = \"{kinetic}\"\npotential = \"p[2] + q[2]\"\n\
              constraints = [\"(p,p) = 1\", \"|q − p|² = 4\", \"|q − [5/4, 0]|² = 9/4\"]\n"
         )
     };
     let back = "reversor = { p' = \"-p'\", q' = \"-q'\" }".replace("p' =", "\"p'\" =");
     let back = back.replace("q' =", "\"q'\" =");
-    let claims = [back.as_str(), "symmetry = { p2 = \"-p2\", q2 = \"-q2\" }"];
+    let claims = [back.as_str(), "symmetry = { p = \"[p[1], -p[2]]\", q = \"[q[1], -q[2]]\" }"];
     let found = judged(&with_claims(&text("((p',p') + (q',q'))/2"), &claims));
     assert_eq!(found, [Verdict::Proved, Verdict::Refuted]);
     // A force linear in the velocities is not reversible.
-    let found = judged(&with_claims(&text("((p',p') + (q',q'))/2 + q2²*p1'"), &claims[..1]));
+    let found = judged(&with_claims(&text("((p',p') + (q',q'))/2 + q[2]²*p'[1]"), &claims[..1]));
     assert_eq!(found, [Verdict::Refuted]);
 }
 

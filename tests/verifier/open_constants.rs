@@ -48,7 +48,7 @@ fn what_holds_for_no_constant_is_refuted() {
 fn states_without_a_value_refute_nothing_of_an_open_constant() {
     // For the constant 0 the second part holds; the first does where √y has a value.
     let claim = |first: &str| {
-        format!("rate = ['{first}', 'x*∫(0,x)']\nequals = ['{first} + x*(abs(y) - y)', 'y*∫(0,x)']")
+        format!("rate = '[{first}, x*∫(0,x)]'\nequals = '[{first} + x*(abs(y) - y), y*∫(0,x)]'")
     };
     let plane = "[state]\nx = '-1..1'\ny = '-1..1'\n[field]\n\"x'\" = '0'\n\"y'\" = '0'\n";
     assert_eq!(verdict(plane, &claim("0*log(y)")), Verdict::Undecided);

@@ -26,6 +26,9 @@ pub trait Scalar: DualNum<Primitive = f64> + Copy {
         Self::zero().recip()
     }
 
+    /// Notes that a system of equations is divided by this value, while a recording asks for such values.
+    fn note_divisor(self) {}
+
     /// Applies a function, whose derivative need not exist where the argument does not move: √k has
     /// a value at k = 0, and no slope.
     fn applied(self, function: &impl Function) -> Self {
@@ -150,6 +153,10 @@ impl Scalar for f64 {
 impl<T: Scalar> Scalar for Dual<T> {
     fn rational(value: &Rational) -> Self {
         Dual::from_re(T::rational(value))
+    }
+
+    fn note_divisor(self) {
+        self.re.note_divisor();
     }
 
     fn applied(self, function: &impl Function) -> Self {

@@ -25,8 +25,9 @@ const SEED: u64 = 1;
 /// Number of pieces of the ranges in which ρ₀ is enclosed.
 const PIECES: usize = 1 << 9;
 
-/// Number of normals of each body that are tried, as lanes of one run.
+/// Number of normals of each body that are tried in one run, as lanes, and number of runs.
 const NORMALS: usize = 64;
+const RUNS: usize = 4;
 
 /// Knowledge of the zeros of ρ₀.
 enum Zeros {
@@ -179,23 +180,33 @@ fn has_positive_moments(model: &Model) -> bool {
 fn takes_both_signs(tape: &Tape, draws: &[Draw], body: u64) -> bool {
     let domain = Ball::<NORMALS>;
     let values = DrawSource::new(draws).state(SEED, body);
-    let mut inputs: Vec<Balls<NORMALS>> = values.iter().map(|x| domain.constant(x)).collect();
-    // Points of a grid, whose stereographic images lie on all sides of the sphere.
-    let coordinate = |step: usize| (step as f64 - 3.5) * 0.75;
+    let drawn: Vec<Balls<NORMALS>> = values.iter().map(|x| domain.constant(x)).collect();
     let exact = |of: &dyn Fn(usize) -> f64| Balls::new(std::array::from_fn(of), [0.0; NORMALS]);
-    inputs.push(exact(&|lane| coordinate(lane % 8)));
-    inputs.push(exact(&|lane| coordinate(lane / 8)));
-    inputs.push(exact(&|_| 0.0));
-    inputs.resize(tape.inputs().max(inputs.len()), exact(&|_| f64::NAN));
     let mut evaluator = Evaluator::new(tape, domain);
-    evaluator.run(&inputs);
-    let found = evaluator.output(0);
-    let has = |is_positive: bool| {
-        (0..NORMALS).any(|lane| {
-            found.is_defined(lane)
-                && found.excludes_zero(lane)
-                && (found.mid[lane] > 0.0) == is_positive
-        })
-    };
-    has(true) && has(false)
+    let (mut is_positive, mut is_negative) = (false, false);
+    for run in 0..RUNS {
+        let mut inputs = drawn.clone();
+        inputs.push(exact(&|lane| stereographic(run * NORMALS + lane)[0]));
+        inputs.push(exact(&|lane| stereographic(run * NORMALS + lane)[1]));
+        inputs.push(exact(&|_| 0.0));
+        inputs.resize(tape.inputs().max(inputs.len()), exact(&|_| f64::NAN));
+        evaluator.run(&inputs);
+        let found = evaluator.output(0);
+        let is_known = |lane: &usize| found.is_defined(*lane) && found.excludes_zero(*lane);
+        for lane in (0..NORMALS).filter(is_known) {
+            is_positive |= found.mid[lane] > 0.0;
+            is_negative |= found.mid[lane] < 0.0;
+        }
+    }
+    is_positive && is_negative
+}
+
+/// Stereographic coordinates of a point of a spiral that covers the sphere evenly.
+fn stereographic(index: usize) -> [f64; 2] {
+    /// Turn from one point to the next, in the golden ratio.
+    const TURN: f64 = 2.399963229728653;
+    let height = 1.0 - (2 * index + 1) as f64 / (RUNS * NORMALS) as f64;
+    let radius = ((1.0 - height) / (1.0 + height)).sqrt();
+    let angle = TURN * index as f64;
+    [radius * libm::cos(angle), radius * libm::sin(angle)]
 }

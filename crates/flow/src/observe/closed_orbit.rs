@@ -105,8 +105,8 @@ fn weigh(claim: &ClosedOrbit, found: &ProvedOrbit, judgement: &mut MotionJudgeme
                 let share = Enclosure::exact(*turns as f64).recip();
                 let least = printed(found.period * share);
                 judgement.refute(format!(
-                    "the orbit found from the start is run through {turns} times in it, and has the least \
-                     period {least}"
+                    "the orbit found from the start is run through {turns} times in it, and its \
+                     least period is {least}"
                 ));
             }
             Err(doubt) => {

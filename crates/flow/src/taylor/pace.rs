@@ -64,6 +64,8 @@ pub(crate) struct Lane<One> {
     pub(crate) is_settled: bool,
     /// Sign whose argument is 0 at the present state.
     pub(crate) turned: Option<usize>,
+    /// Sign that was turned last, while the signs are not settled again.
+    pub(crate) came_to: Option<usize>,
     /// Number of steps in turn that ended where they began.
     pub(crate) stalls: u32,
 }
@@ -77,6 +79,7 @@ impl<One: SeriesNumber> Lane<One> {
             aim: until,
             is_settled: false,
             turned: None,
+            came_to: None,
             stalls: 0,
             sizes: [f64::NAN, 0.0],
             unit: 1.0,

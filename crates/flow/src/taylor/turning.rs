@@ -33,7 +33,8 @@ impl<T: SeriesNumber> Stepper<T> {
                 let size = |x: &T| T::EPSILON * x.lane(lane).leading().abs();
                 let known = || self.state.iter().zip(&self.peaks);
                 let known = known().map(|(x, peak)| size(&peak.larger(*x))).collect();
-                if let Some(sign) = self.series.turned_away(lane, known) {
+                let away = self.series.turned_away(lane, known);
+                if let Some(sign) = away.filter(|sign| self.lanes[lane].came_to != Some(*sign)) {
                     self.series.turn(sign, lane);
                     changes = true;
                 }
@@ -73,7 +74,9 @@ impl<T: SeriesNumber> Stepper<T> {
         if self.jumps {
             (0..T::LANES).for_each(|lane| self.end_forks(lane));
         }
-        self.lanes.iter_mut().for_each(|lane| lane.is_settled = true);
+        for lane in &mut self.lanes {
+            (lane.is_settled, lane.came_to) = (true, None);
+        }
     }
 
     /// Ends a motion that begins on a jump from which it could leave to both sides.
@@ -102,7 +105,11 @@ impl<T: SeriesNumber> Stepper<T> {
     fn agrees(&self, sign: usize, lane: usize) -> bool {
         let is_positive = self.series.is_positive(sign, lane);
         let (row, argument) = self.series.signed(sign);
-        let argument: Vec<T::One> = argument.iter().map(|x| x.lane(lane)).collect();
+        let mut argument: Vec<T::One> = argument.iter().map(|x| x.lane(lane)).collect();
+        // The last step ended at a zero, as far as its terms knew, which may be more than a rounding away.
+        if self.lanes[lane].came_to == Some(sign) {
+            argument[0] = T::One::ZERO;
+        }
         if argument.iter().all(|term| term.leading() == 0.0) {
             return true;
         }
@@ -160,7 +167,7 @@ impl<T: SeriesNumber> Stepper<T> {
         for lane in 0..T::LANES {
             if let Some(sign) = self.lanes[lane].turned.take() {
                 self.series.turn(sign, lane);
-                self.lanes[lane].is_settled = false;
+                (self.lanes[lane].is_settled, self.lanes[lane].came_to) = (false, Some(sign));
             }
         }
     }

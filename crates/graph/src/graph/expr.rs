@@ -189,6 +189,14 @@ impl Scalar for Expr {
         })
     }
 
+    fn note_divisor(self) {
+        with_graph(|graph| {
+            if let Some(divisors) = &mut graph.divisors {
+                divisors.push(self);
+            }
+        });
+    }
+
     fn literally<R>(build: impl FnOnce() -> R) -> R {
         super::literally(build)
     }

@@ -46,7 +46,7 @@ pub use merge::{Choice, Member};
 pub use points::Points;
 pub use presence::{Need, edges, has_moduli, left_out, logarithms_times_zero};
 use recording::with_graph;
-pub use recording::{is_recorded_literally, literally, record, record_further};
+pub use recording::{divisors_of, is_recorded_literally, literally, record, record_further};
 pub use size::squares_of_terms;
 pub use steps::Step;
 pub(crate) use tape::Instruction;
@@ -134,6 +134,8 @@ pub struct Graph {
     domains: Vec<Defined>,
     /// Whether folds that would extend the domain of a formula are left out.
     literal: bool,
+    /// Values by which systems of equations were divided, while they are asked for.
+    divisors: Option<Vec<Expr>>,
     constants: Vec<Rational>,
     index: Index,
     constant_ids: FxHashMap<Rational, u32>,
@@ -151,6 +153,7 @@ impl Graph {
             nodes: Vec::with_capacity(USUAL),
             domains: Vec::with_capacity(USUAL),
             literal: false,
+            divisors: None,
             constants: Vec::with_capacity(FEW),
             index: Index::new(),
             constant_ids: FxHashMap::with_capacity_and_hasher(FEW, FxBuildHasher),
@@ -172,6 +175,7 @@ impl Graph {
             nodes: self.nodes.clone(),
             domains: self.domains.clone(),
             literal: false,
+            divisors: None,
             constants: self.constants.clone(),
             index: self.index.clone(),
             constant_ids: self.constant_ids.clone(),
