@@ -46,8 +46,7 @@ impl Statement for Divergence {
         let divergence = self.divergence.text().trim();
         Some(match &self.volume {
             Some(volume) => {
-                let is_name = volume.text().trim().chars().all(char::is_alphanumeric);
-                let volume = if is_name { volume.clone() } else { volume.bracketed() };
+                let volume = volume.as_factor();
                 format!("div({}*v)/{0} = {divergence}", volume.text().trim())
             }
             None => format!("div v = {divergence}"),

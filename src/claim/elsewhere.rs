@@ -4,18 +4,25 @@ use num_traits::Zero;
 
 use super::{Condition, Need};
 use crate::formula::Formula;
-use crate::graph::{Expr, edges};
+use crate::graph::{Expr, edges, left_out};
 use crate::mechanics::{Model, Phase};
 
-/// Records the equations of motion as written at another point, the image of a state or one that a claim names:
-/// where they have no value it is not in phase space. The slope of an energy has none where what is under a
-/// root is 0, that of √x² at 0; nor have rates where a mass is 0.
+/// Records the equations of motion as written at the image of a state: where they have no value the image
+/// is not in phase space.
 pub(super) fn system_at(at: &Phase<'_, Expr>) -> Vec<Expr> {
+    let mut values = formulas_at(at);
+    values.extend(at.hidden_in_motion(&values));
+    values
+}
+
+/// Records the same at a point that a claim names. The slope of an energy has no value there where what is
+/// under a root is 0, that of √x² at 0; nor have rates where a mass is 0.
+pub(super) fn system_at_point(at: &Phase<'_, Expr>) -> Vec<Expr> {
     let formulas = formulas_at(at);
     match at.model().system.has_given_rates() {
         true => formulas,
         false => {
-            let hidden = at.hidden_in_motion(&formulas);
+            let hidden = left_out(at.field(), &at.motion_as_written());
             [inside(formulas), hidden].concat()
         }
     }

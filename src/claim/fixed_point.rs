@@ -4,7 +4,7 @@ use num_dual::Dual;
 
 use super::clock::never_rests;
 use super::components::Components;
-use super::elsewhere::{inside, system_at};
+use super::elsewhere::{inside, system_at_point};
 use super::point::read_point;
 use super::statement::Objection;
 use super::{ComplexFormula, Reader, Statement, ValueShape, difference};
@@ -106,7 +106,7 @@ impl Statement for FixedPoint {
     }
 
     fn presence(&self, jet: &DualPoint<'_, Expr>) -> Vec<Expr> {
-        let written = system_at(&jet.phase.with(&[], &self.point.at(&jet.phase)));
+        let written = system_at_point(&jet.phase.with(&[], &self.point.at(&jet.phase)));
         match self.spectrum.is_some() || self.polynomial.is_some() {
             true => inside(written),
             false => written,

@@ -10,7 +10,7 @@
 
 use super::clock::never_rests;
 use super::components::Components;
-use super::elsewhere::{inside, system_at};
+use super::elsewhere::{inside, system_at_point};
 use super::point::read_point;
 use super::statement::Objection;
 use super::{Condition, Need, Reader, ResidualContext, Statement, ValueShape, difference};
@@ -74,7 +74,7 @@ impl Statement for NoDensityNear {
     }
 
     fn presence(&self, jet: &DualPoint<'_, Expr>) -> Vec<Expr> {
-        inside(system_at(&jet.phase.with(&[], &self.0.at(&jet.phase))))
+        inside(system_at_point(&jet.phase.with(&[], &self.0.at(&jet.phase))))
     }
 
     fn context(&self, jet: &DualPoint<'_, Expr>, kept: &[bool]) -> ResidualContext {

@@ -171,6 +171,12 @@ impl Formula {
         Formula { text: draft.text, arena: draft.arena }
     }
 
+    /// Same formula with brackets around its text unless it binds as tightly as a divisor has to.
+    #[must_use]
+    pub fn as_factor(&self) -> Self {
+        if self.bond() < Bond::Prefix { self.bracketed() } else { self.clone() }
+    }
+
     /// Joins two formulas, each in brackets unless it binds as tightly as is required.
     pub(super) fn joined(&self, infix: Infix, other: &Self) -> FormulaResult {
         let (sign, left, right) = match infix {

@@ -19,7 +19,7 @@ use super::preimages::SecondState;
 use super::recorded::{RecordedClaim, Wider};
 use super::run::{Doubles, Values};
 use super::sampler::{Sampler, TAPE_LANES};
-use crate::claim::{LevelSubset, Need};
+use crate::claim::{Condition, LevelSubset, Need};
 use crate::graph::{Expr, Fault, Step};
 use crate::number::ball::Ball;
 use crate::number::{BinaryOperation, UnaryFunction};
@@ -163,12 +163,20 @@ impl Judging<'_> {
     /// on z = 3, and is for z < 2.
     fn meets_conditions(&self, sampler: &Sampler, own: &Candidate<'_, '_>) -> Result<bool, Fault> {
         // What is not 0 at states of the level is 0 on no open set if it is one analytic function.
-        let is_asked = |need: &Need| match need {
+        let is_asked = |condition: &&Condition| match &condition.need {
             Need::NotZero { .. } | Need::Zeros { .. } => true,
-            Need::Rank { .. } | Need::Nonzero { .. } => !self.is_one_function(need.values()),
+            // A remark is lost at most, by a modulus.
+            need @ Need::Rank { .. } if !condition.is_essential => {
+                let is_modulus =
+                    |step: Step<'_>| matches!(step, Step::Unary(UnaryFunction::Abs, _));
+                self.graph.has_step(&need.values(), is_modulus)
+            }
+            need @ (Need::Rank { .. } | Need::Nonzero { .. }) => {
+                !self.is_one_function(need.values())
+            }
             _ => false,
         };
-        for condition in own.item.conditions.iter().filter(|condition| is_asked(&condition.need)) {
+        for condition in own.item.conditions.iter().filter(is_asked) {
             if let Some(failure) = self.failure(sampler, own.item, condition)? {
                 let remark = own.status.evidence.remark.as_deref();
                 if condition.is_essential || !remark.is_some_and(|own| own.contains(&failure)) {
