@@ -42,8 +42,12 @@ pub enum SearchStream {
 }
 
 // The streams of proofs come before the first of these, and those of moduli, without end, are the last.
-const _: () = assert!(ProofStream::LAST < SearchStream::Jets as u64);
-const _: () = assert!((SearchStream::Combinations as u64) < SearchStream::Moduli as u64);
+const _: () =
+    assert!(ProofStream::LAST < SearchStream::Jets as u64, "streams of proofs come first");
+const _: () = assert!(
+    (SearchStream::Combinations as u64) < SearchStream::Moduli as u64,
+    "the streams of moduli come last"
+);
 
 impl SearchStream {
     /// Makes the random numbers for this purpose under a seed.

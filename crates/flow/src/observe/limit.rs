@@ -63,7 +63,7 @@ pub fn judge(
         let change = quotients.last().map(|last: &f64| (quotient - last).abs());
         let visible = change.map(|change| change.max(ROUNDINGS * f64::EPSILON * quotient));
         // From here on the quotients are rounding.
-        if visible.is_some_and(|visible| !(noise <= visible)) {
+        if noise.is_nan() || visible.is_some_and(|visible| noise > visible) {
             break;
         }
         quotients.push(quotient);

@@ -67,6 +67,27 @@ fn pulses_within_a_step_bring_contacts_and_limits() {
 }
 
 #[test]
+fn rounding_refutes_no_limit_of_a_high_order() {
+    // x(1) = x(0) + 1 + ε^n y
+    let verdict = |n: u32, order: u32| {
+        let text = format!(
+            "title = 'exact'\n[parameters]\nep = '1/2..1'\n[state]\nx = '-3..3'\ny = '-3..3'\n[field]\n\
+             \"x'\" = '1 + ep^{n}*y'\n\"y'\" = '0'\n[[claim]]\nlimit-of-motion = 'x'\nparameter = 'ep'\n\
+             order = {order}\nconstant = '1'\nstate = {{ x = '1/3', y = '1' }}\ntime = 1\n"
+        );
+        reports(Case::parse(&text, &[]).expect("a case"), |_| true).remove(0).verdict
+    };
+    for order in [1, 2, 6] {
+        assert_eq!(verdict(order, order), Verdict::Confirmed, "order {order}");
+    }
+    for order in [7, 8, 9] {
+        assert_ne!(verdict(order, order), Verdict::Refuted, "order {order}");
+    }
+    assert_eq!(verdict(3, 2), Verdict::Refuted, "of a higher order");
+    assert_eq!(verdict(1, 2), Verdict::Refuted, "of a lower order");
+}
+
+#[test]
 fn a_closed_orbit_speaks_against_a_density_where_there_is_none() {
     let options = Options::default();
     let found = evidence_against_density(&catalogue("figures/fig-8.toml"), &options);

@@ -154,6 +154,29 @@ fn sections_take_moduli_steep_functions_and_high_powers() {
 }
 
 #[test]
+fn moduli_that_turn_often_within_a_step_keep_their_sides() {
+    // |sin k sin t| is 1/9 where k sin t = ±asin(1/9) + nπ.
+    let circle = field(&[("x", "y"), ("y", "-x")]);
+    for k in [17, 23, 29] {
+        let mut expected = Vec::new();
+        for n in -k..=k {
+            for side in [-1.0, 1.0] {
+                let y = (f64::from(n) * PI + side * (1f64 / 9.0).asin()) / f64::from(k);
+                if y.abs() < 1.0 {
+                    expected.extend([y.asin(), PI - y.asin()].map(|t| t.rem_euclid(2.0 * PI)));
+                }
+            }
+        }
+        expected.sort_by(f64::total_cmp);
+        let surface = format!("abs(sin({k}*y)) = 1/9");
+        let found = crossings(&circle, &surface, "x=1 y=0", expected.len());
+        for ((time, _), expected) in found.iter().zip(&expected) {
+            assert!((time - expected).abs() < 1e-6, "{surface}: {time}, not {expected}");
+        }
+    }
+}
+
+#[test]
 fn steep_functions_are_followed_far_out() {
     // dry friction made smooth: the motion comes to rest in the tail of tanh
     for rate in ["-x - tanh(1000*v)/10", "-x - (1 - 2/(1 + exp(2000*v)))/10"] {
