@@ -13,7 +13,7 @@ pub type Polynomial = Vec<u64>;
 /// Number of points at which a fraction is checked: a false one survives each with probability d/p.
 pub const CHECKS: usize = 3;
 
-/// The polynomial ring F_p[x].
+/// The polynomial ring F_p\[x\].
 #[derive(Clone, Copy, Debug)]
 pub struct PrimePolynomials(pub Modulus);
 
