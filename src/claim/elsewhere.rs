@@ -1,10 +1,11 @@
 //! Requirements of a claim at a point other than the state: at σ(x), at Φ(x), at a fixed point.
 
+use num_dual::DualNum;
 use num_traits::Zero;
 
 use super::{Condition, Need};
 use crate::formula::Formula;
-use crate::graph::{Expr, edges, left_out};
+use crate::graph::{Expr, edges, left_out, literally};
 use crate::mechanics::{Model, Phase};
 
 /// Records the equations of motion as written at the image of a state: where they have no value the image
@@ -38,6 +39,12 @@ pub(super) fn written_at(at: &Phase<'_, Expr>, formula: &Formula) -> Vec<Expr> {
     let mut values = at.evaluate_literally(formula).components();
     values.extend(at.presupposed(formula));
     values
+}
+
+/// Records the inverse of a formula as written at a point, by which a claim divides.
+pub(super) fn inverse_at(at: &Phase<'_, Expr>, divisor: &Formula) -> Vec<Expr> {
+    let values = at.evaluate_literally(divisor).components();
+    values.into_iter().map(|value| literally(|| value.recip())).collect()
 }
 
 /// Adds what must not be 0 for the values to have derivatives of all orders near the point.

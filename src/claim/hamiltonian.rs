@@ -1,14 +1,13 @@
 //! Hamiltonian form in the variables of `[variables]` with the bracket of `[poisson]`.
 
-use num_dual::DualNum;
-
+use super::elsewhere::inverse_at;
 use super::of_bracket::{
     CHOICE, are_not_zero, bracket_of, defects, images_as_written, of, scalar_in, slope, they_vary,
     turned, variables, written,
 };
 use super::{Condition, Reader, Statement, difference};
 use crate::formula::{Formula, Type};
-use crate::graph::{Expr, literally};
+use crate::graph::Expr;
 use crate::mechanics::calculus::DualPoint;
 use crate::scalar::Scalar;
 
@@ -68,9 +67,7 @@ impl Statement for Hamiltonian {
         let mut values = images_as_written(variables, &jet.phase);
         values.extend(written(variables, &[self.bracket], functions, there));
         // The statement divides by N.
-        let multipliers = self.multiplier.iter();
-        let factors = multipliers.flat_map(|own| there.evaluate_literally(own).components());
-        values.extend(factors.map(|factor| literally(|| factor.recip())));
+        values.extend(self.multiplier.iter().flat_map(|own| inverse_at(there, own)));
         values
     }
 

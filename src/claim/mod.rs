@@ -49,12 +49,10 @@ mod transformation;
 mod value;
 mod volume;
 
-use num_dual::DualNum;
-
-use elsewhere::written_at;
+use elsewhere::{inverse_at, written_at};
 
 use crate::formula::Formula;
-use crate::graph::{Expr, literally};
+use crate::graph::Expr;
 use crate::mechanics::calculus::DualPoint;
 use crate::mechanics::{Model, NewVariables};
 use crate::proof::Group;
@@ -244,10 +242,7 @@ impl ClaimKind {
     /// Computes values as written, besides those of [`formulas`](Self::formulas), that exist wherever
     /// the claim is to hold.
     pub fn further_requirement(&self, jet: &DualPoint<'_, Expr>) -> Vec<Expr> {
-        let inverses = |divisor: &Formula| {
-            let values = jet.phase.evaluate_literally(divisor).components();
-            values.into_iter().map(|value| literally(|| value.recip())).collect::<Vec<_>>()
-        };
+        let inverses = |divisor| inverse_at(&jet.phase, divisor);
         // Where ρ is 0 on an open part, div(ρv) is 0, and v(ln ρ) is undefined.
         let mut values: Vec<Expr> = self.divisors().into_iter().flat_map(inverses).collect();
         values.extend(of_each!(self, statement => statement.written_elsewhere(jet)));

@@ -1,13 +1,11 @@
 //! Maps of phase space: symmetries, reversors, scalings, and maps to other systems.
 
-use num_dual::DualNum;
-
-use super::elsewhere::{one_antiderivative, system_at, written_at};
+use super::elsewhere::{inverse_at, one_antiderivative, system_at, written_at};
 use super::images::Transformation;
 use super::statement::open_constant;
 use super::{Condition, Jets, Need, Reader, Statement, ValueShape, difference, quadrature_defects};
 use crate::formula::{Formula, Type};
-use crate::graph::{Expr, literally, record};
+use crate::graph::{Expr, record};
 use crate::mechanics::calculus::DualPoint;
 use crate::mechanics::{Dependence, Meaning, Model, Phase, Variable};
 use crate::scalar::Scalar;
@@ -102,9 +100,7 @@ impl Statement for Symmetry {
 
     /// No time runs where λ is 0.
     fn written_elsewhere(&self, jet: &DualPoint<'_, Expr>) -> Vec<Expr> {
-        let factors =
-            self.time.iter().flat_map(|own| jet.phase.evaluate_literally(own).components());
-        factors.map(|factor| literally(|| factor.recip())).collect()
+        self.time.iter().flat_map(|own| inverse_at(&jet.phase, own)).collect()
     }
 
     fn limit_of_refutation(&self, model: &Model) -> Option<&'static str> {

@@ -11,6 +11,7 @@
 use std::ops::Range;
 
 use super::claim_state::{BlockResult, ClaimState};
+use super::conjugates::is_one_function;
 use super::evidence::{Method, Proof, Verdict};
 use super::field::{Answer, PrimeFieldStates, Query};
 use super::judge::{JudgeError, Trust};
@@ -21,8 +22,8 @@ use super::run::{Doubles, Values};
 use super::sampler::{Sampler, TAPE_LANES};
 use crate::claim::{Condition, LevelSubset, Need};
 use crate::graph::{Expr, Fault, Step};
+use crate::number::UnaryFunction;
 use crate::number::ball::Ball;
-use crate::number::{BinaryOperation, UnaryFunction};
 
 /// A claim that holds at its own place, with the positions of its outputs for a wider one.
 struct Candidate<'f, 'r> {
@@ -172,7 +173,7 @@ impl Judging<'_> {
                 self.graph.has_step(&need.values(), is_modulus)
             }
             need @ (Need::Rank { .. } | Need::Nonzero { .. }) => {
-                !self.is_one_function(need.values())
+                !is_one_function(self.graph, &need.values(), &[])
             }
             _ => false,
         };
@@ -185,22 +186,6 @@ impl Judging<'_> {
             }
         }
         Ok(true)
-    }
-
-    /// Whether values are made by operations that are analytic wherever they have a value, on a set that is
-    /// connected.
-    fn is_one_function(&self, values: Vec<Expr>) -> bool {
-        use UnaryFunction::{Atan, Cos, Exp, Neg, Recip, Sin};
-        let reached = self.graph.reached(values);
-        let is_analytic = |step: Step<'_>| match step {
-            Step::Constant(_) | Step::Input(_) => true,
-            Step::Unary(function, _) => {
-                matches!(function, Neg | Recip | Exp | Sin | Cos | Atan)
-            }
-            Step::Binary(operation, ..) => operation != BinaryOperation::Pow,
-            Step::Power(_, exponent) => exponent.to_integer().is_some(),
-        };
-        self.graph.steps().zip(reached).all(|(step, reached)| !reached || is_analytic(step))
     }
 
     /// Adds a wider place to those where a claim holds, if it does.

@@ -12,6 +12,7 @@ mod presence;
 mod progress;
 mod roots;
 mod sections;
+mod surfaces;
 
 use liouville::case::Case;
 use liouville::number::double_double::DoubleDouble;

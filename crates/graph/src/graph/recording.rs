@@ -74,9 +74,9 @@ pub fn literally<R>(build: impl FnOnce() -> R) -> R {
 /// Returns the values by which systems of equations are divided in what `build` records, also where the quotient
 /// is folded: 0·(1/det) is 0.
 pub fn divisors_of(build: impl FnOnce()) -> Vec<Expr> {
-    with_graph(|graph| graph.divisors = Some(Vec::new()));
+    let outer = with_graph(|graph| graph.divisors.replace(Vec::new()));
     build();
-    with_graph(|graph| graph.divisors.take()).unwrap_or_default()
+    with_graph(|graph| std::mem::replace(&mut graph.divisors, outer)).unwrap_or_default()
 }
 
 /// Whether the recording under way folds away nothing that may be undefined, as within [`literally`].
