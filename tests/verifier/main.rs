@@ -67,6 +67,7 @@ mod user_fields;
 mod values;
 mod verdicts;
 mod wide_balls;
+mod wider_places;
 
 /// Folder of the catalogue, from that of this package.
 const CASES: &str = "../cases";

@@ -1,0 +1,32 @@
+//! Places wider than that of a claim: what it presupposes on its level may fail away from it.
+
+use liouville::case::Case;
+use liouville::verdict::{Options, Verdict, judge};
+
+/// Places at which Jacobi's identity of {u,v} = u²v s, {u,w} = −1 is proved on x = z/4, for u = y·f.
+fn places(f: &str, s: &str) -> Vec<String> {
+    let text = format!(
+        "title = 't'\n[state]\nx = '-1..1'\ny = '-1..1'\nz = '1..2'\n[field]\n\"x'\" = '0'\n\"y'\" = '0'\n\"z'\" = '0'\n\
+         [level]\nequations = ['x = z/4']\n[variables]\nu = 'y*({f})'\nv = 'x'\nw = 'z'\n\
+         [poisson]\n'u,v' = 'u²*v*({s})'\n'u,w' = '-1'\n[[claim]]\njacobi-identity = 'holds'\n"
+    );
+    let case = Case::parse(&text, &[]).unwrap_or_else(|error| panic!("{error}\n{text}"));
+    let report =
+        judge(&case, &Options::default()).unwrap_or_else(|error| panic!("{error}\n{text}"));
+    let claim = &report.claims[0];
+    assert_eq!(claim.verdict, Verdict::Proved, "{f}: {:?}", claim.evidence);
+    claim.evidence.holds.clone()
+}
+
+#[test]
+fn variables_that_vary_on_a_level_may_obey_a_relation_elsewhere() {
+    // u is 0 for x < 0, where the Jacobiator is not 0 off u = 0.
+    for f in ["x + abs(x)", "atan(x) + atan(1/x) + π/2"] {
+        let found = places(f, "abs(v) - v");
+        assert!(!found.iter().any(|place| place.contains("all")), "{f}: {found:?}");
+    }
+    for f in ["x + 2", "exp(x)"] {
+        let found = places(f, "0");
+        assert!(found.iter().any(|place| place.contains("all")), "{f}: {found:?}");
+    }
+}
