@@ -9,7 +9,7 @@
 use num_traits::One;
 
 use super::rotation::{self, Among};
-use super::{Objection, Reader, ResidualContext, Statement, kinks, rest, volume};
+use super::{Assumption, Objection, Reader, ResidualContext, Statement, kinks, rest, volume};
 use crate::graph::{Expr, record};
 use crate::mechanics::calculus::DualPoint;
 use crate::mechanics::{Chart, Meaning, Model, NORMAL, Phase, Variable, VocabularyEntry};
@@ -50,10 +50,8 @@ macro_rules! decided_by_criterion {
             volume::limit_of_proof(model)
         }
 
-        fn remark(&self, model: &Model, _: &[bool]) -> Option<String> {
-            let remarks: Vec<String> =
-                [kinks::remark(model), volume::remark(model)].into_iter().flatten().collect();
-            (!remarks.is_empty()).then(|| remarks.join("; "))
+        fn assumptions(&self, model: &Model) -> Vec<(Assumption, String)> {
+            [kinks::assumption(model), volume::assumption(model)].into_iter().flatten().collect()
         }
     };
 }

@@ -3,18 +3,20 @@
 use num_dual::DualNum;
 use num_traits::One;
 
+use super::assumption::Assumption;
 use crate::graph::{Expr, Graph, Step, record};
 use crate::mechanics::{Draw, Model, NORMAL, Phase};
 use crate::number::UnaryFunction;
 use crate::number::rational::Rational;
 use crate::proof::{Extent, is_nowhere_zero};
 
-/// Returns the remark for a body whose radii of curvature are not known to be smooth functions of γ.
-pub(super) fn remark(model: &Model) -> Option<String> {
+/// Returns the hypothesis of a criterion on a body whose radii of curvature are not known to be smooth functions
+/// of γ.
+pub(super) fn assumption(model: &Model) -> Option<(Assumption, String)> {
     may_have_kinks(model).then(|| {
-        "it is not known that the surface is smooth for all γ: the density is positive and smooth where \
-         the support function is"
-            .to_string()
+        let words = "it is not known that the surface is smooth for all γ: the density is positive and smooth \
+                     where the support function is";
+        (Assumption::SmoothSurface, words.to_string())
     })
 }
 

@@ -4,6 +4,7 @@
 //! reports are written once for all of them.
 
 pub mod absence;
+mod assumption;
 mod bracket;
 mod casimir;
 mod clock;
@@ -59,6 +60,7 @@ use crate::proof::Group;
 use crate::scalar::Scalar;
 use kinds::statements;
 
+pub use assumption::Assumption;
 pub use bracket::Bracket;
 pub use casimir::Casimir;
 pub use clock::clock;
@@ -326,6 +328,11 @@ impl ClaimKind {
     /// Returns the reason why a residual that vanishes does not prove the claim, if so.
     pub fn limit_of_proof(&self, model: &Model) -> Option<String> {
         of_each!(self, statement => statement.limit_of_proof(model))
+    }
+
+    /// Returns the hypotheses of a proof that are not known to hold, each with a sentence.
+    pub fn assumptions(&self, model: &Model) -> Vec<(Assumption, String)> {
+        of_each!(self, statement => statement.assumptions(model))
     }
 
     /// Returns a remark for a claim that holds; `kept` are the level equations imposed.

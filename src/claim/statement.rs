@@ -1,5 +1,6 @@
 //! Interface of the kinds of claims.
 
+use super::assumption::Assumption;
 use super::{Condition, Novelty, Reader, ResidualContext, ValueShape};
 use crate::formula::Formula;
 use crate::graph::Expr;
@@ -186,6 +187,11 @@ pub trait Statement: Clone {
     /// Returns the reason why a residual that vanishes does not prove the claim, if so.
     fn limit_of_proof(&self, _: &Model) -> Option<String> {
         None
+    }
+
+    /// Returns the hypotheses of a proof that are not known to hold, each with a sentence.
+    fn assumptions(&self, _: &Model) -> Vec<(Assumption, String)> {
+        Vec::new()
     }
 
     /// Returns a remark for a claim that holds; `kept` are the level equations imposed.

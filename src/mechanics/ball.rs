@@ -199,6 +199,12 @@ impl Dynamics for BallOnSurface {
         self.potential.is_some() || self.rotation.is_some()
     }
 
+    /// μ(μ + D), by which ω is divided.
+    fn inertia_divisor<T: Scalar>(&self, at: &Configuration<'_, T>) -> Option<T> {
+        let (moment, radius) = (self.value(at, &self.moment), self.value(at, &self.radius));
+        Some(moment * (moment + self.value(at, &self.mass) * radius * radius))
+    }
+
     fn without_forces(&self) -> Option<System> {
         let free = || System::Ball(Box::new(Self { potential: None, ..self.clone() }));
         self.rotation.is_none().then(free)

@@ -135,7 +135,7 @@ pub(super) trait Dynamics {
         None
     }
 
-    /// Computes the function of inertia by which the accelerations of a body are divided; `None` for other systems.
+    /// Computes the function of inertia by which the rates of a body or a ball are divided; `None` for other systems.
     fn inertia_divisor<T: Scalar>(&self, _: &Configuration<'_, T>) -> Option<T> {
         None
     }

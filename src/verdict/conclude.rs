@@ -1,9 +1,10 @@
 //! Conversion of findings to reports.
 
 use super::claim_state::ClaimState;
-use super::evidence::{ClaimReport, Flaw, Verdict};
+use super::evidence::{ClaimReport, Verdict};
 use super::judge::{Options, Trust};
 use super::recorded::RecordedClaim;
+use super::restriction::Flaw;
 use crate::case::Case;
 use crate::claim::ClaimKind;
 
@@ -61,6 +62,10 @@ pub fn report(
     }
     let holds = matches!(verdict, Verdict::Proved | Verdict::Confirmed);
     if holds {
+        for (assumption, words) in claim.kind.assumptions(&case.model) {
+            evidence.assume(assumption);
+            evidence.add_remark(words);
+        }
         if let Some(remark) = claim.kind.remark(&case.model, &claim.place.kept) {
             evidence.add_remark(remark);
         }
@@ -110,10 +115,19 @@ pub fn report(
         });
     }
     let elsewhere = evidence.holds.iter().any(|name| *name != place);
-    let enough = options.trust != Trust::Proof || verdict == Verdict::Proved;
+    let is_complete = verdict == Verdict::Proved && evidence.assumes.is_empty();
+    let enough = options.trust != Trust::Proof || is_complete;
     if holds && !enough {
-        let silence = evidence.silence.as_deref().unwrap_or("none was found");
-        evidence.reason = Some(format!("a proof is required: {silence}"));
+        evidence.reason = Some(match verdict {
+            Verdict::Proved => {
+                let assumed: Vec<&str> = evidence.assumes.iter().map(|own| own.words()).collect();
+                format!("a proof is required, and this one assumes that {}", assumed.join(" and "))
+            }
+            _ => {
+                let silence = evidence.silence.as_deref().unwrap_or("none was found");
+                format!("a proof is required: {silence}")
+            }
+        });
     }
     let agrees = verdict.agrees(claim.expect, enough && !(claim.only_there && elsewhere));
     if holds && claim.only_there && elsewhere {

@@ -4,26 +4,36 @@ use super::cell_rank::{CellRank, RankQuestion};
 use super::claim_state::{ClaimState, are_zero, undecide};
 use super::cofactors::Cofactor;
 use super::conclude::OPEN_CONSTANT;
-use super::evidence::{Flaw, Verdict};
+use super::evidence::Verdict;
 use super::field::{Answer, PrimeFieldStates, Query};
 use super::judging::Judging;
 use super::ladder::Open;
 use super::preimages::SecondState;
 use super::recorded::RecordedClaim;
+use super::restriction::flaw;
 use super::sampler::{Sampler, extent};
-use crate::claim::{Condition, Need};
+use crate::claim::{Assumption, Condition, Need};
 use crate::graph::{Expr, Fault, Graph, record};
 use crate::mechanics::calculus::DualPoint;
 use crate::mechanics::{Phase, combinations};
 use crate::proof::{Extent, GroupOutcome, Prover, is_nowhere_zero, sign};
 use crate::scalar::Scalar;
 
-/// The restriction of a claim that does not meet a need.
-fn flaw(need: &Need) -> Option<Flaw> {
-    match need {
-        Need::Continuous { .. } => Some(Flaw::Jumps),
-        Need::Finite { .. } => Some(Flaw::Infinite),
-        _ => None,
+/// A condition that is not met, or not known to be.
+pub(super) struct Unmet {
+    /// Message.
+    pub words: String,
+    /// Whether it is known to fail.
+    pub is_known: bool,
+}
+
+impl Unmet {
+    fn known(words: String) -> Self {
+        Self { words, is_known: true }
+    }
+
+    fn open(words: String) -> Self {
+        Self { words, is_known: false }
     }
 }
 
@@ -50,7 +60,7 @@ impl Judging<'_> {
                 }
                 let failure = match (&condition.need, sampler.is_numerical()) {
                     (Need::NotZero { .. } | Need::Positive { .. }, true) => {
-                        Some(condition.otherwise.clone())
+                        Some(Unmet::open(condition.otherwise.clone()))
                     }
                     (_, true) if !condition.is_essential => None,
                     _ => self.failure(sampler, item, condition)?,
@@ -59,16 +69,26 @@ impl Judging<'_> {
                     if asks_one_to_one {
                         let remark = format!("{}, which is not proved", condition.otherwise);
                         status.evidence.add_remark(remark);
+                        Assumption::that(&condition.need)
+                            .into_iter()
+                            .for_each(|own| status.evidence.assume(own));
                     }
                     continue;
                 };
-                if !condition.is_essential {
-                    status.evidence.add_remark(failure);
-                    if let Some(flaw) = flaw(&condition.need) {
-                        status.evidence.add_flaw(flaw);
+                if condition.is_essential {
+                    if !self.holds_of_all_values(item)? {
+                        undecide(status, failure.words);
                     }
-                } else if !self.holds_of_all_values(item)? {
-                    undecide(status, failure);
+                    continue;
+                }
+                status.evidence.add_remark(failure.words);
+                match failure.is_known {
+                    true => flaw(&condition.need)
+                        .into_iter()
+                        .for_each(|own| status.evidence.add_flaw(own)),
+                    false => Assumption::that(&condition.need)
+                        .into_iter()
+                        .for_each(|own| status.evidence.assume(own)),
                 }
             }
         }
@@ -86,7 +106,7 @@ impl Judging<'_> {
             if let Some(failure) = self.failure(sampler, item, condition)?
                 && !self.holds_of_all_values(item)?
             {
-                undecide(status, failure);
+                undecide(status, failure.words);
                 status.is_unseen = false;
                 break;
             }
@@ -143,14 +163,13 @@ impl Judging<'_> {
         Ok(())
     }
 
-    /// Returns the message on a condition that fails, or on an essential one that is not known to
-    /// hold and without which the claim is not known to.
+    /// Returns what a condition lacks that fails, or is not known to hold although the claim may need it.
     pub(super) fn failure(
         &self,
         sampler: &Sampler,
         item: &RecordedClaim<'_>,
         condition: &Condition,
-    ) -> Result<Option<String>, Fault> {
+    ) -> Result<Option<Unmet>, Fault> {
         let otherwise = &condition.otherwise;
         match &condition.need {
             Need::Rank { rows, rank } => {
@@ -163,7 +182,7 @@ impl Judging<'_> {
                 let known = match found {
                     Some(found) if found < *rank => {
                         let reason = format!("{otherwise}: {found} of {rank} dimensions are left");
-                        return Ok(Some(reason));
+                        return Ok(Some(Unmet::known(reason)));
                     }
                     Some(_) => {
                         let of = |question| {
@@ -183,13 +202,15 @@ impl Judging<'_> {
                 };
                 Ok(match known {
                     CellRank::Full => None,
-                    CellRank::Drops => Some(format!("on a part of the states {otherwise}")),
+                    CellRank::Drops => {
+                        Some(Unmet::known(format!("on a part of the states {otherwise}")))
+                    }
                     CellRank::Unknown if condition.is_essential => {
-                        Some(format!("it is not known whether {otherwise}"))
+                        Some(Unmet::open(format!("it is not known whether {otherwise}")))
                     }
-                    CellRank::Unknown => {
-                        Some(format!("it is not excluded that on a part of the states {otherwise}"))
-                    }
+                    CellRank::Unknown => Some(Unmet::open(format!(
+                        "it is not excluded that on a part of the states {otherwise}"
+                    ))),
                 })
             }
             Need::NotZero { value } => {
@@ -197,7 +218,7 @@ impl Judging<'_> {
                     self.holds_at_all_states(sampler, *value, &|graph, extents, value| {
                         is_nowhere_zero(graph, extents, &[], &[value])
                     })?;
-                Ok((!is_met).then(|| otherwise.clone()))
+                Ok((!is_met).then(|| Unmet::open(otherwise.clone())))
             }
             Need::Positive { value } => {
                 let is_met =
@@ -206,11 +227,11 @@ impl Judging<'_> {
                         known.is_some_and(|known| known.is_positive)
                             && is_nowhere_zero(graph, extents, &[], &[value])
                     })?;
-                Ok((!is_met).then(|| otherwise.clone()))
+                Ok((!is_met).then(|| Unmet::open(otherwise.clone())))
             }
             Need::Nonzero { values } => {
                 let is_vacuous = self.are_zero_everywhere(sampler, values)?;
-                Ok(is_vacuous.then(|| otherwise.clone()))
+                Ok(is_vacuous.then(|| Unmet::known(otherwise.clone())))
             }
             Need::Zeros { function } => {
                 let Some(filling) = self.filling(sampler)? else { return Ok(None) };
@@ -218,24 +239,25 @@ impl Judging<'_> {
                     self.holds_at_all_states(&filling.sampler, *function, &|graph, _, value| {
                         is_nowhere_zero(graph, &filling.extents, &[], &[value])
                     })?;
-                Ok(has_none.then(|| otherwise.clone()))
+                Ok(has_none.then(|| Unmet::known(otherwise.clone())))
             }
             Need::OneToOne { .. } => {
                 let both = self.second_preimage(sampler, item, SecondState::InRanges)?;
-                Ok(both.map(|both| format!("Φ takes {both} to one state: {otherwise}")))
+                Ok(both
+                    .map(|both| Unmet::known(format!("Φ takes {both} to one state: {otherwise}"))))
             }
             Need::Continuous { values } => {
                 let place = self.jump(sampler, values)?;
-                Ok(place.map(|place| format!("near {place} {otherwise}")))
+                Ok(place.map(|place| Unmet::known(format!("near {place} {otherwise}"))))
             }
             Need::Finite { value, field } => {
                 let place = self.pole(sampler, *value, field)?;
-                Ok(place.map(|place| format!("near {place} {otherwise}")))
+                Ok(place.map(|place| Unmet::known(format!("near {place} {otherwise}"))))
             }
             Need::ValueOnZeros { function, factor, inverse } => {
                 let cofactor = Cofactor { factor: *factor, inverse: *inverse };
                 let is_met = self.has_value_on_zeros(sampler, item, *function, &cofactor)?;
-                Ok((!is_met).then(|| otherwise.clone()))
+                Ok((!is_met).then(|| Unmet::open(otherwise.clone())))
             }
         }
     }

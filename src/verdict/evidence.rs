@@ -5,7 +5,9 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
+use super::restriction::Flaw;
 use crate::case::Expect;
+use crate::claim::Assumption;
 use crate::proof::Certificate;
 
 /// Verdict on a claim.
@@ -208,18 +210,6 @@ pub struct Rung {
     pub found: String,
 }
 
-/// A restriction of what a claim that holds says about motions.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Flaw {
-    /// A function of the claim jumps at states that motions can cross.
-    Jumps,
-    /// A density is infinite at some states.
-    Infinite,
-    /// Functions are shown to be independent on a part of the states only.
-    OnAPart,
-}
-
 /// A quantity measured on a motion.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Measurement {
@@ -277,6 +267,9 @@ pub struct Evidence {
     /// Restrictions that are seen, each with words in `remark`.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub flaws: Vec<Flaw>,
+    /// Hypotheses of the proof that are neither proved nor seen to fail, each with words in `remark`.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub assumes: Vec<Assumption>,
     /// Volume form to which a density on a level set refers.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub volume: Option<String>,
@@ -314,6 +307,14 @@ impl Evidence {
         if !self.has(flaw) {
             self.flaws.push(flaw);
             self.flaws.sort_unstable();
+        }
+    }
+
+    /// Adds a hypothesis that is not proved, once.
+    pub(crate) fn assume(&mut self, assumption: Assumption) {
+        if !self.assumes.contains(&assumption) {
+            self.assumes.push(assumption);
+            self.assumes.sort_unstable();
         }
     }
 

@@ -115,6 +115,7 @@ fn is_held(verdict: Verdict) -> bool {
 fn restrict(evidence: &mut Evidence, of_values: Vec<(String, Evidence)>) {
     let Some((_, first)) = of_values.first() else { return };
     evidence.flaws.clear();
+    evidence.assumes.clear();
     evidence.remark = None;
     (evidence.sign, evidence.sign_is_proved) = (first.sign, first.sign_is_proved);
     let is_common = of_values.iter().all(|(_, own)| own.remark == first.remark);
@@ -124,6 +125,7 @@ fn restrict(evidence: &mut Evidence, of_values: Vec<(String, Evidence)>) {
     for (named, own) in of_values {
         evidence.holds.retain(|place| own.holds.contains(place));
         own.flaws.iter().for_each(|flaw| evidence.add_flaw(*flaw));
+        own.assumes.iter().for_each(|assumption| evidence.assume(*assumption));
         if let Some(remark) = own.remark.filter(|_| !is_common) {
             evidence.add_remark(format!("for {named}: {remark}"));
         }

@@ -53,6 +53,7 @@ mod point;
 mod poles;
 mod preimages;
 mod recorded;
+mod restriction;
 mod run;
 mod sampler;
 mod second_opinion;
@@ -68,8 +69,8 @@ mod witness;
 
 pub use equations::{EquationsSize, equations_size};
 pub use evidence::{
-    ClaimReport, DensitySign, Evidence, Flaw, Independence, Measurement, Method, Proof, Rung,
-    Verdict, Witness,
+    ClaimReport, DensitySign, Evidence, Independence, Measurement, Method, Proof, Rung, Verdict,
+    Witness,
 };
 pub use filled::is_filled;
 pub use judge::{
@@ -80,6 +81,7 @@ pub(crate) use point::named;
 pub use point::{
     Digits, Enclosed, MOST_DIGITS, NamedValue, OVERFLOW, PointReport, evaluate, evaluate_digits,
 };
+pub use restriction::Flaw;
 pub use sampler::{Sampler, TAPE_LANES};
 pub use state::{StateError, read_state};
 pub use statement::{Composed, Residuals, statements};

@@ -319,6 +319,7 @@ impl Evidence {
         self.sign_is_partial |= other.sign_is_partial;
         self.sign_may_vanish |= other.sign_may_vanish;
         other.flaws.iter().for_each(|flaw| self.add_flaw(*flaw));
+        other.assumes.iter().for_each(|own| self.assume(*own));
     }
 
     fn include_sign(&mut self, other: &Self) {

@@ -180,7 +180,8 @@ impl Judging<'_> {
         for condition in own.item.conditions.iter().filter(is_asked) {
             if let Some(failure) = self.failure(sampler, own.item, condition)? {
                 let remark = own.status.evidence.remark.as_deref();
-                if condition.is_essential || !remark.is_some_and(|own| own.contains(&failure)) {
+                if condition.is_essential || !remark.is_some_and(|own| own.contains(&failure.words))
+                {
                     return Ok(false);
                 }
             }

@@ -1,6 +1,7 @@
 //! Tests of the verifier through its public interface, one module a subject.
 
 mod arbitrary;
+mod assumptions;
 mod bodies;
 mod cofactors;
 mod combinations;

@@ -153,3 +153,18 @@ fn nothing_rests_where_a_mass_is_0() {
     let found = verdicts("c = '1..2'", &PLANE, kinetic, &images);
     assert_eq!(found, Some(vec![Undecided; 2]), "no motion at the image");
 }
+
+#[test]
+fn a_ball_without_moment_of_inertia_has_no_equations_of_motion() {
+    // ω is divided by μ, which no rate shows on a plane.
+    let ball = |moment: &str| {
+        let text = format!(
+            "title = 'x'\nsystem = 'ball-on-surface'\n[parameters]\nm = '1..2'\nR = '1..2'\nk = '-1..1'\n\
+             μ = '{moment}'\n[body]\nsurface = 'r3'\n[[claim]]\nintegral = 'M'\n"
+        );
+        let case = Case::parse(&text, &[]).expect("a case");
+        judge(&case, &Options::default()).map(|report| report.claims[0].verdict)
+    };
+    assert_eq!(ball("(k + 1)² - k² - 2*k").expect("a ball"), Verdict::Proved);
+    assert!(ball("(k + 1)² - k² - 2*k - 1").is_err());
+}

@@ -9,6 +9,7 @@ mod curved;
 use num_dual::DualNum;
 use num_traits::{One, Zero};
 
+use super::assumption::Assumption;
 use crate::graph::{Evaluator, Expr, Tape, record};
 use crate::mechanics::{
     Draw, DrawSource, Model, NORMAL, ParameterOrigin, Phase, SamplerSpec, System,
@@ -61,13 +62,13 @@ pub(super) fn limit_of_proof(model: &Model) -> Option<String> {
     }
 }
 
-/// Returns a remark if it is not known whether ρ₀ vanishes.
-pub(super) fn remark(model: &Model) -> Option<String> {
+/// Returns the hypothesis of a criterion that ρ₀ vanishes nowhere, if that is not known.
+pub(super) fn assumption(model: &Model) -> Option<(Assumption, String)> {
     matches!(zeros(model, true), Zeros::Possible).then(|| {
-        format!(
-            "it is not known that {} ≠ 0 for all γ, which the criterion presupposes",
-            name(model)
-        )
+        let name = name(model);
+        let words =
+            format!("it is not known that {name} ≠ 0 for all γ, which the criterion presupposes");
+        (Assumption::NonzeroVolume, words)
     })
 }
 
