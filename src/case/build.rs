@@ -317,15 +317,15 @@ pub fn extend_support(model: &mut Model) {
     }
 }
 
-/// Notes whether the masses of a Lagrangian have both signs, and for which listed values nothing moves.
+/// Notes how the accelerations of a Lagrangian are solved for, and for which listed values nothing moves.
 fn note_masses(parts: &mut ModelParts) {
     let ModelParts { model, chart, free_draws, .. } = parts;
-    let is_indefinite = match &model.system {
-        System::Lagrangian(own) => own.has_indefinite_masses(model, chart, free_draws),
+    let needs_minors = match &model.system {
+        System::Lagrangian(own) => own.needs_minors(model, chart, free_draws),
         _ => false,
     };
     if let System::Lagrangian(own) = &mut model.system {
-        own.is_indefinite = is_indefinite;
+        own.needs_minors = needs_minors;
     }
     model.undetermined = model.find_undetermined();
 }

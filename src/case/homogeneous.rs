@@ -6,20 +6,20 @@ use crate::formula::Formula;
 use crate::graph::{Evaluator, Expr, Graph, Step, Tape, record};
 use crate::mechanics::calculus::DualPoint;
 use crate::mechanics::elimination::dot;
-use crate::mechanics::{Chart, DrawSource, Model, NORMAL, Phase, Shape};
+use crate::mechanics::{Chart, Draw, DrawSource, Model, NORMAL, Phase, Shape};
 use crate::number::ball::Ball;
 use crate::number::rational::Rational;
 use crate::number::{BinaryOperation, Domain, UnaryFunction};
-use crate::proof::{Group, GroupOutcome, Prover};
+use crate::proof::{Extent, Group, GroupOutcome, Prover};
 
 /// Number of states at which Euler's relation is tested.
 const STATES: u64 = 4;
 
 /// Replacement for `shape`: its extension off the sphere; `None` if h is homogeneous of degree 1.
 ///
-/// Euler's relation (γ,∇h) = h is evaluated at a few states on the unit sphere and off it. Where a
-/// ball excludes 0, or a prime field does, or h is not defined off the sphere, the body's support
-/// function is |γ| h(γ/|γ|); for a homogeneous h that would be the same function.
+/// Unless Euler's relation (γ,∇h) = h is seen by the form of h, or proved in prime fields, the body's support
+/// function is |γ| h(γ/|γ|); for a homogeneous h that is the same function. Balls at a few states on the unit sphere
+/// and off it save the proof where h is not homogeneous, or not defined off the sphere.
 pub fn extension(model: &Model, shape: &Shape) -> Option<Shape> {
     let Shape::Support(formula) = shape else { return None };
     let mut draws = model.parameter_draws();
@@ -46,14 +46,13 @@ pub fn extension(model: &Model, shape: &Shape) -> Option<Shape> {
         evaluator.run(&inputs);
         evaluator.outputs().all(|ball| ball.is_defined(0) && !ball.excludes_zero(0))
     });
-    // A defect below rounding is visible in a prime field, but none is left by Euler's relation.
-    let prover = Prover { sources: &[], extents: &[], seed: 0 };
-    let homogeneous = homogeneous
-        && (is_evident(model, formula)
-            || !matches!(
-                prover.prove(&graph, &[Group::of(defects.to_vec())]).as_deref(),
-                Ok([GroupOutcome::NonZero(_)])
-            ));
+    let extents: Vec<Extent> = draws.iter().map(Draw::extent).collect();
+    let prover = Prover { sources: &[], extents: &extents, seed: 0 };
+    let is_proved = || {
+        let found = prover.prove(&graph, &[Group::of(defects.to_vec())]);
+        matches!(found.as_deref(), Ok([GroupOutcome::Zero(_)]))
+    };
+    let homogeneous = homogeneous && (is_evident(model, formula) || is_proved());
     (!homogeneous).then(|| Shape::SupportOnSphere(formula.clone()))
 }
 

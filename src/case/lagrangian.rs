@@ -55,7 +55,7 @@ pub fn read(
         algebra: algebra?,
         forces: forces?,
         vakonomic,
-        is_indefinite: false,
+        needs_minors: false,
     }));
     reading.level = level;
     Some(system)

@@ -63,17 +63,23 @@ impl Statement for Independent {
 
     /// Remarks on the theorem of Euler and Jacobi: with an invariant density, n - 2 independent
     /// integrals on an n-dimensional level integrate the system by quadratures.
-    fn remark(&self, model: &Model, _: &[bool]) -> Option<String> {
+    fn remark(&self, model: &Model, kept: &[bool]) -> Option<String> {
         if model.system.is_map() {
             return None;
         }
         let functions: usize = self.0.iter().map(|f| f.value_type().size()).sum();
-        let level = model.dimension().checked_sub(model.level.len())?;
-        let needed = level.checked_sub(2)?;
+        let equations = kept.iter().filter(|kept| **kept).count();
+        let dimension = model.dimension().checked_sub(equations)?;
+        let needed = dimension.checked_sub(2)?;
         let noun = if functions == 1 { "function" } else { "functions" };
+        let place = match equations {
+            0 if model.level.is_empty() => format!("on a level of dimension {dimension}"),
+            0 => format!("in all {dimension} dimensions"),
+            _ => format!("on a level of dimension {dimension}"),
+        };
         Some(format!(
-            "{functions} independent {noun} on a level of dimension {level}; if they are integrals \
-             and there is a density, the Euler–Jacobi theorem needs {needed}"
+            "{functions} independent {noun} {place}; if they are integrals and there is a density, the \
+             Euler–Jacobi theorem needs {needed}"
         ))
     }
 }

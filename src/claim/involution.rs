@@ -217,11 +217,12 @@ fn bracket<R: Reader>(from: &R) -> Result<(MotionBracket, bool), R::Error> {
     let is_named = from.text(CHOICE)?.is_some();
     if let System::Lagrangian(own) = &model.system
         && !is_named
-        && model.variables.is_none()
     {
         if own.has_canonical_momenta() && model.level.is_empty() {
             return Ok((MotionBracket::OfMomenta, true));
         }
+    }
+    if matches!(model.system, System::Lagrangian(_)) && !is_named && model.variables.is_none() {
         let message = "the momenta of this Lagrangian have no bracket of their own".to_string();
         let remedy = "they have one without constraints, forces, quasi-velocities, [level] and `t`; \
                       otherwise give [variables] and [poisson]";

@@ -17,6 +17,7 @@ mod masses;
 mod momenta;
 
 pub use self::equations::{EquationTerms, LagrangianEquations};
+use self::masses::eliminated;
 
 use super::configuration::Configuration;
 use super::dynamics::Dynamics;
@@ -44,8 +45,8 @@ pub struct Lagrangian {
     pub forces: Vec<(usize, Formula)>,
     /// Whether the motion is vakonomic, with multipliers in the state.
     pub vakonomic: bool,
-    /// Whether ∂²L/∂w² is known to have eigenvalues of both signs at some states.
-    pub is_indefinite: bool,
+    /// Whether the accelerations are solved for by minors of ∂²L/∂w².
+    pub needs_minors: bool,
 }
 
 /// The role of a state variable.
@@ -102,15 +103,7 @@ impl Dynamics for Lagrangian {
 
     /// Returns the rates of all components of the state.
     fn field<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
-        let motion = self.motion(phase);
-        let mut field = motion.drift;
-        for (component, rate) in motion.velocities.iter().zip(motion.acceleration) {
-            field[*component] = rate;
-        }
-        for (component, rate) in self.multipliers(&phase.model().state).zip(motion.reactions) {
-            field[component] = rate;
-        }
-        field
+        self.field_of(phase, self.motion(phase))
     }
 
     fn energy<T: Scalar>(&self, phase: &Phase<'_, T>) -> Option<T> {
@@ -126,6 +119,24 @@ impl Dynamics for Lagrangian {
 }
 
 impl Lagrangian {
+    /// Returns the rates of all components of the state, solved for without pivots: they have a value exactly where
+    /// the masses, bordered by the slopes of the constraints, are regular. `None` for systems that are too large.
+    pub fn field_by_minors<T: Scalar>(&self, phase: &Phase<'_, T>) -> Option<Vec<T>> {
+        let equations = self.equations(phase);
+        equations.is_small().then(|| self.field_of(phase, equations.by_minors()))
+    }
+
+    fn field_of<T: Scalar>(&self, phase: &Phase<'_, T>, motion: LagrangianTerms<T>) -> Vec<T> {
+        let mut field = motion.drift;
+        for (component, rate) in motion.velocities.iter().zip(motion.acceleration) {
+            field[*component] = rate;
+        }
+        for (component, rate) in self.multipliers(&phase.model().state).zip(motion.reactions) {
+            field[component] = rate;
+        }
+        field
+    }
+
     /// Returns the reaction μ_k of a constraint.
     fn reaction<T: Scalar>(&self, phase: &Phase<'_, T>, index: usize) -> T {
         self.motion(phase).reactions.get(index).copied().unwrap_or_else(T::undefined)
@@ -211,16 +222,19 @@ impl Lagrangian {
     }
 
     fn motion<T: Scalar>(&self, phase: &Phase<'_, T>) -> LagrangianTerms<T> {
-        let LagrangianEquations { velocities, drift, terms, carried } = self.equations(phase);
+        let equations = self.equations(phase);
+        if !self.may_be_eliminated(&equations.terms.mass) {
+            return equations.by_minors();
+        }
+        let LagrangianEquations { velocities, drift, terms, carried } = equations;
         let EquationTerms { mass, drive, slopes } = terms;
-        let is_definite = self.may_be_definite(&mass);
         let sides = [drive].into_iter().chain(slopes.iter().cloned()).collect();
-        let mut responses = self.solved(is_definite, &mass, sides);
+        let mut responses = eliminated(&mass, sides);
         let free = responses.remove(0);
         let gram: Vec<Vec<T>> =
             slopes.iter().map(|a| responses.iter().map(|b| dot(a, b)).collect()).collect();
         let defects = carried.iter().zip(&slopes).map(|(own, a)| -(*own + dot(a, &free))).collect();
-        let reactions = self.solved(is_definite, &gram, vec![defects]).remove(0);
+        let reactions = eliminated(&gram, vec![defects]).remove(0);
         let acceleration = free
             .iter()
             .enumerate()

@@ -47,7 +47,14 @@ impl Phase<'_, Expr> {
         if self.model().system.has_given_rates() {
             return Vec::new();
         }
-        let rates = literally(|| self.with(&[], &self.state()).field().to_vec());
+        let rates = literally(|| {
+            let here = self.with(&[], &self.state());
+            let exact = match &self.model().system {
+                System::Lagrangian(own) => own.field_by_minors(&here),
+                _ => None,
+            };
+            exact.unwrap_or_else(|| here.field().to_vec())
+        });
         rates.into_iter().filter(|rate| !rate.is_always_defined()).collect()
     }
 
@@ -65,14 +72,25 @@ impl Phase<'_, Expr> {
         left_out(&[written, self.field()].concat(), &inverses)
     }
 
-    /// Records what accelerations are divided by: of a body the function of inertia, as the rate of γ shows D_T.
+    /// Records what accelerations are divided by: of a body the function of inertia, as the rate of γ shows D_T; of a
+    /// Lagrangian the determinant without which they do not exist, however they are solved for.
     fn divisors(&self) -> Vec<Expr> {
         let system = &self.model().system;
         match (system, system.inertia_divisor(&self.configuration)) {
             (_, Some(divisor)) => vec![divisor],
-            (System::Lagrangian(_), None) => divisors_of(|| {
-                self.with(&[], &self.state()).field();
-            }),
+            (System::Lagrangian(own), None) => {
+                let mut determinant = None;
+                let mut all = divisors_of(|| {
+                    let here = self.with(&[], &self.state());
+                    let equations = own.equations(&here);
+                    determinant = equations.is_small().then(|| equations.determinant());
+                    if determinant.is_none() {
+                        here.field();
+                    }
+                });
+                all.extend(determinant);
+                all
+            }
             _ => Vec::new(),
         }
     }

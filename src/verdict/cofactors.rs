@@ -51,7 +51,7 @@ impl Judging<'_> {
 
     /// Whether a cofactor is known to have a value at every zero of F at which the field has one.
     ///
-    /// Its poles are poles of the field as written; or no zeros of F; or F and its denominator have no
+    /// Its poles are poles of the field as written, at which no motion passes; or no zeros of F; or F and its denominator have no
     /// common factor in lowest terms: with L_vF = A/B and κ = C/D in lowest terms, AD = BCF, so that D
     /// divides B.
     pub(super) fn has_value_on_zeros(
@@ -66,11 +66,10 @@ impl Judging<'_> {
         let moves =
             |pole: &Expr| self.graph.inputs_of(*pole).into_iter().any(|input| input >= parameters);
         let mut poles = poles_of(self.graph, &[cofactor.factor]);
-        if !sampler.misses_nothing(self.case) {
-            let of_field = poles_of(self.graph, &self.common.required_at(sampler.kept()));
-            let is_of_field = |pole: &Expr| *pole != function && of_field.contains(pole);
-            poles.retain(|pole| moves(pole) && !is_of_field(pole));
-        }
+        let of_field = poles_of(self.graph, &self.common.required_at(sampler.kept()));
+        let is_of_field = |pole: &Expr| *pole != function && of_field.contains(pole);
+        let misses_some = !sampler.misses_nothing(self.case);
+        poles.retain(|pole| !(misses_some && !moves(pole)) && !is_of_field(pole));
         if poles.is_empty() {
             return Ok(true);
         }

@@ -62,6 +62,25 @@ impl Judging<'_> {
         Ok(())
     }
 
+    /// Whether the rates of the level functions are combinations of these, with values wherever the field has one.
+    pub(super) fn is_kept_by_combination(&self, kept: &[bool]) -> Result<bool, Fault> {
+        let of = |all: &[Expr]| -> Vec<Expr> {
+            let pairs = all.iter().zip(kept).filter(|(_, kept)| **kept);
+            pairs.map(|(value, _)| *value).collect()
+        };
+        let (level, rates) = (of(&self.common.level), of(&self.common.level_rates));
+        let known = self.needs(&[&self.common.required_at(kept)[..], &self.common.field].concat());
+        let needed = self.needs(&rates);
+        let has_value = needed.into_iter().all(|need| is_among(&known, need));
+        Ok(has_value && self.combination(&level, &rates)?.is_some())
+    }
+
+    /// Lists what operations in values need of their arguments.
+    fn needs(&self, values: &[Expr]) -> Vec<(usize, Need)> {
+        let reached = self.graph.reached(values.iter().copied());
+        self.graph.needs(&reached).collect()
+    }
+
     /// Whether the residual of a claim, and what is written elsewhere, have values wherever the claim asks for
     /// them: what they need is needed by the formulas as they are written, or by the motion.
     fn has_value_where_asked(
@@ -76,14 +95,8 @@ impl Judging<'_> {
             asked.extend(&self.common.field);
             needed.extend(&self.common.level_rates);
         }
-        let needs = |values: Vec<Expr>| -> Vec<(usize, Need)> {
-            let reached = self.graph.reached(values);
-            self.graph.needs(&reached).collect()
-        };
-        let known = needs(asked);
-        needs(needed).into_iter().all(|(place, need)| {
-            known.iter().any(|(own, known)| *own == place && known.includes(need))
-        })
+        let known = self.needs(&asked);
+        self.needs(&needed).into_iter().all(|need| is_among(&known, need))
     }
 
     /// Proves that values are combinations of the level functions.
@@ -122,6 +135,11 @@ impl Judging<'_> {
         let Some((values, basis)) = made else { return Ok(None) };
         combination_certificate(&graph, &values, &basis, self.options.seed)
     }
+}
+
+/// Whether what an operation needs of an argument is known.
+fn is_among(known: &[(usize, Need)], (place, need): (usize, Need)) -> bool {
+    known.iter().any(|(own, known)| *own == place && known.includes(need))
 }
 
 /// Settles a claim as proved at all points of its level.

@@ -46,6 +46,8 @@ pub struct Judging<'a> {
     pub(super) pieces: RefCell<FxHashMap<Vec<bool>, Option<Pieces>>>,
     /// Equations of the level whose slopes depend on each other at the states.
     pub(super) flat: RefCell<Vec<FlatEquation>>,
+    /// Whether the motion is proved to stay on the equations of a place, on all parts of it that were judged.
+    pub(super) kept: RefCell<FxHashMap<Vec<bool>, bool>>,
     /// Samplers of whole places, by the equations that hold there.
     samplers: RefCell<FxHashMap<Vec<bool>, Rc<Sampler>>>,
     /// Whether the map is proved to be one-to-one, by the equations that hold at a place and by the
@@ -73,6 +75,7 @@ impl<'a> Judging<'a> {
             thin_image: OnceCell::new(),
             pieces: RefCell::default(),
             flat: RefCell::default(),
+            kept: RefCell::default(),
             samplers: RefCell::default(),
             one_to_one: RefCell::default(),
         }

@@ -183,6 +183,7 @@ impl Judging<'_> {
         if unsettled.is_empty() && ground.is_empty() {
             return Ok(());
         }
+        let has_ground = !ground.is_empty();
         let mut queries = vec![Query::of(ground)];
         queries.extend(unsettled.iter().map(|(item, _)| Query {
             outputs: [&item.residual[..], &item.context.quadrature_defects].concat(),
@@ -196,6 +197,12 @@ impl Judging<'_> {
         let ground = answers.next();
         if ground.as_ref().is_some_and(Answer::is_nonzero) {
             self.name_the_error(place, sampler)?;
+        }
+        if has_ground {
+            if matches!(ground, Some(Answer::NonZero(_))) {
+                self.name_the_error_on_parts(place, sampler)?;
+            }
+            self.note_kept(place, matches!(ground, Some(Answer::Zero(_))));
         }
         for ((item, status), answer) in unsettled.iter_mut().zip(answers) {
             let defects = &item.context.quadrature_defects;

@@ -5,18 +5,16 @@ use super::cell_rank::{CellRank, RankQuestion};
 use super::claim_state::{ClaimState, undecide};
 use super::evidence::Verdict;
 use super::judging::Judging;
-use super::ladder::{LADDER_BITS, PRECISE_STATES};
 use super::recorded::RecordedClaim;
 use super::sampler::{Sampler, TAPE_LANES};
 use super::witness::briefly;
 use crate::claim::OfMotions;
 use crate::graph::{Expr, Fault};
 use crate::mechanics::combinations;
-use crate::number::mixed::{Mixed, Number};
 use crate::number::rational::Rational;
 
 /// Place of a claim that does not rest on the level.
-const EVERYWHERE: &str = "everywhere";
+pub(super) const EVERYWHERE: &str = "everywhere";
 
 /// An equation of the level whose slope is not known to be independent of those before it at almost every
 /// state.
@@ -71,10 +69,7 @@ impl Judging<'_> {
         let mut found = Vec::new();
         for fixed in choices.unwrap_or_else(|| vec![vec![None; sampler.recipes().len()]]) {
             let chosen = sampler.with(&fixed);
-            // A part without a state that is known counts for nothing.
-            if !chosen.has_states() && !self.has_exact_state(&chosen) {
-                continue;
-            }
+            // A part of which no state is known may still have some.
             let rank_of = |count: usize| {
                 let rows: Vec<Vec<Expr>> =
                     kept[..count].iter().map(|index| slopes[*index].clone()).collect();
@@ -225,16 +220,9 @@ impl Judging<'_> {
 
     /// Whether the form of the rates shows that the functions of some equations are constant on every motion, which
     /// then stays on their level, whatever their slopes.
-    fn is_kept_everywhere(&self, kept: &[bool]) -> bool {
+    pub(super) fn is_kept_everywhere(&self, kept: &[bool]) -> bool {
         let rates = self.common.level_rates.iter().zip(kept).filter(|(_, kept)| **kept);
         let is_zero = |rate: &Expr| self.graph.constant_value(*rate).is_some_and(Rational::is_zero);
         !self.case.model.system.is_map() && rates.into_iter().all(|(rate, _)| is_zero(rate))
-    }
-
-    /// Whether some state exists in exact numbers: f64 does not know that √0 does.
-    fn has_exact_state(&self, sampler: &Sampler) -> bool {
-        let domain = Mixed::new(LADDER_BITS[0]);
-        let is_known = |value: &Number| matches!(value, Number::Exact(_) | Number::Ball(_));
-        (0..PRECISE_STATES).any(|index| sampler.states(&domain, 1, index).iter().all(is_known))
     }
 }

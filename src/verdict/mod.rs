@@ -31,6 +31,7 @@ mod ground;
 mod judge;
 mod judging;
 mod jumps;
+mod kept_levels;
 mod ladder;
 mod level_slopes;
 mod listed_levels;

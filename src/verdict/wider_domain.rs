@@ -113,6 +113,12 @@ impl Judging<'_> {
         if self.missed_part(&sampler)?.is_some() || !self.flat_equations(&sampler)?.is_empty() {
             return Ok(());
         }
+        let is_kept = self.options.trust == Trust::Float || self.is_kept(place, &sampler)?;
+        if !is_kept {
+            // Where states are found numerically nothing is proved of what is confirmed.
+            let is_open = |own: &Candidate<'_, '_>| own.status.settled == Some(Verdict::Confirmed);
+            candidates.retain(|own| sampler.is_numerical() && is_open(own));
+        }
         // A map may be one-to-one on a level alone.
         let asks = |own: &Candidate<'_, '_>| {
             own.item
@@ -166,12 +172,7 @@ impl Judging<'_> {
         // What is not 0 at states of the level is 0 on no open set if it is one analytic function.
         let is_asked = |condition: &&Condition| match &condition.need {
             Need::NotZero { .. } | Need::Zeros { .. } => true,
-            // A remark is lost at most, by a modulus.
-            need @ Need::Rank { .. } if !condition.is_essential => {
-                let is_modulus =
-                    |step: Step<'_>| matches!(step, Step::Unary(UnaryFunction::Abs, _));
-                self.graph.has_step(&need.values(), is_modulus)
-            }
+            Need::Continuous { .. } => true,
             need @ (Need::Rank { .. } | Need::Nonzero { .. }) => {
                 !is_one_function(self.graph, &need.values(), &[])
             }

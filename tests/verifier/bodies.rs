@@ -6,7 +6,7 @@
 use crate::common::{assert_meet, case, claim, claim_text, exact, excludes_zero};
 use crate::random::{config, inertia, number, numbers, potential, profile, support, vector};
 use liouville::case::{Case, Setting};
-use liouville::verdict::{Enclosed, Options, PointReport, evaluate, judge};
+use liouville::verdict::{Enclosed, Options, PointReport, Verdict, evaluate, judge};
 use num_traits::ToPrimitive;
 use proptest::prelude::*;
 
@@ -222,5 +222,22 @@ fn impossible_bodies_of_every_kind_have_a_warning() {
         let report = judge(&case, &Options::default()).unwrap_or_else(|error| panic!("{error}"));
         let told = report.warnings.join("\n");
         assert!(told.contains(words), "{path}: {told}");
+    }
+}
+
+#[test]
+fn a_support_function_that_is_homogeneous_on_a_part_only_is_taken_on_the_sphere() {
+    // On |γ| = 1 it is 1, a ball; off it, it is another on the cap γ3 > c.
+    for cap in ["99/100", "-99/100"] {
+        let text = format!(
+            "title = 'x'\nsystem = 'rubber-plane'\n[parameters]\nm = 1\nR = 1\nI = 'diag(1..3)'\n[let]\n\
+             d = 'γ3/|γ| - {cap}'\nb = '(d + |d|)²'\n[body]\nsupport = '|γ|*(1 + b*exp(γ1)*((γ,γ) - 1))'\n[[claim]]\n\
+             identity = 'r = -γ'\nwhere = '|γ| = 1'\n[[claim]]\nidentity = 'r = -γ*(1 + 2*b*exp(γ1))'\n\
+             where = '|γ| = 1'\n"
+        );
+        let case = Case::parse(&text, &[]).expect("a case");
+        let found = judge(&case, &Options::default()).expect("a report");
+        let verdicts: Vec<Verdict> = found.claims.iter().map(|claim| claim.verdict).collect();
+        assert_eq!(verdicts, [Verdict::Proved, Verdict::Refuted], "{cap}");
     }
 }

@@ -271,3 +271,21 @@ fn no_proved_relation_is_left_by_a_motion() {
     eprintln!("{proved} proved, {left} left");
     assert!(4 * proved > draws && 10 * left > draws, "{proved} proved, {left} left, of {draws}");
 }
+
+#[test]
+fn a_cofactor_may_divide_by_what_the_field_divides_by() {
+    let verdict = |field: &str, factor: &str| {
+        let text = format!(
+            "title = 'x'\n[state]\nx = '-2..2'\nz = '-2..2'\n[field]\n\"x'\" = '{field}'\n\"z'\" = 'z²'\n[[claim]]\n\
+             invariant-relation = 'x'\ncofactor = '{factor}'\n"
+        );
+        let case = Case::parse(&text, &[]).expect("a case");
+        judge(&case, &Options::default()).expect("a report").claims[0].verdict
+    };
+    for below in ["sin(z)", "cos(z)", "√z", "(exp(z) - 1)", "ln(z²)"] {
+        let factor = format!("1/{below}");
+        assert_eq!(verdict(&format!("x/{below}"), &factor), Verdict::Proved, "{below}");
+    }
+    assert_ne!(verdict("1", "1/x"), Verdict::Proved, "the motion leaves x = 0");
+    assert_ne!(verdict("sin(z)*x/sin(z) + 0/z + 1 - 1*x", "1/x - 1 + 1"), Verdict::Proved);
+}

@@ -248,3 +248,17 @@ fn lagrangians_need_as_many_functions_wherever_the_claim_is_made() {
         assert_eq!(report.claims[0].verdict, Proved, "{place}: {:?}", report.claims[0].evidence);
     }
 }
+
+#[test]
+fn the_momenta_of_a_lagrangian_need_no_new_variables() {
+    let head = format!("{LAGRANGE}\n[variables]\nu = 'j'\nv = 'θ'\n[poisson]\n'u,v' = '1'\n");
+    check(
+        &head,
+        &[
+            (Proved, "involution = ['energy', 'p', 'j']\ntheorem = 'Liouville'"),
+            (Refuted, "involution = ['energy', 'φ']"),
+        ],
+    );
+    let named = mistake(&head, "involution = ['energy', 'p', 'j']\npoisson = 'poisson'");
+    assert!(named.contains("components of new variables") || named.contains("poisson"), "{named}");
+}

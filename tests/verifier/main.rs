@@ -23,6 +23,7 @@ mod golden;
 mod hamiltonian;
 mod inverse_functions;
 mod involution;
+mod kept_levels;
 mod labels;
 mod lanes;
 mod language;

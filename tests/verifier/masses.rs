@@ -84,23 +84,22 @@ fn reactions_are_those_of_masses_of_both_signs() {
 
 #[test]
 fn definite_masses_are_eliminated_as_before() {
-    let is_indefinite = |kinetic: &str, ranges: &str| {
+    let needs_minors = |kinetic: &str, ranges: &str| {
         let text = format!(
             "title = 'x'\n[parameters]\nm = '{ranges}'\n[state]\nx = '0.1..1'\ny = '-1..1'\n\
              \"x'\" = '-1..1'\n\"y'\" = '-1..1'\n[lagrangian]\nkinetic = \"{kinetic}\"\n"
         );
         let case = Case::parse(&text, &[]).expect("a case");
         let System::Lagrangian(own) = &case.model.system else { panic!("a Lagrangian") };
-        own.is_indefinite
+        own.needs_minors
     };
-    for kinetic in ["m*(x'² + x²*y'²)/2", "m*x'² + x'*y' + y'²", "(x' + y')²", "-m*(x'² + y'²)"]
-    {
-        assert!(!is_indefinite(kinetic, "1..2"), "{kinetic}");
+    for kinetic in ["m*(x'² + x²*y'²)/2", "m*x'² + x'*y' + y'²", "-m*(x'² + y'²)"] {
+        assert!(!needs_minors(kinetic, "1..2"), "{kinetic}");
     }
     for (kinetic, ranges) in
         [("m*x'² + x'*y' + y'²", "-2..2"), ("x'²/2 + m*x'*y'", "1..2"), ("x'² - m*y'²", "1..2")]
     {
-        assert!(is_indefinite(kinetic, ranges), "{kinetic} for m in {ranges}");
+        assert!(needs_minors(kinetic, ranges), "{kinetic} for m in {ranges}");
     }
 }
 
@@ -167,4 +166,70 @@ fn a_ball_without_moment_of_inertia_has_no_equations_of_motion() {
     };
     assert_eq!(ball("(k + 1)² - k² - 2*k").expect("a ball"), Verdict::Proved);
     assert!(ball("(k + 1)² - k² - 2*k - 1").is_err());
+}
+
+#[test]
+fn masses_that_are_indefinite_for_few_parameters_have_equations_of_motion_there() {
+    use Verdict::{Proved, Refuted};
+    // For k < 0 the masses are [[0, 1], [1, 400]], and y'' = −1.
+    let own = "kinetic = \"(|k| + k + {l})*x'^2/2 + x'*y' + 200*y'^2\"\npotential = 'x'";
+    let found = |l: &str, claim: &str| {
+        let lagrangian = own.replace("{l}", l);
+        verdicts("k = '-0.001..1'", &PLANE, &lagrangian, &[claim]).expect("equations of motion")[0]
+    };
+    let rate = |right: &str| format!("rate = \"y'\"\nequals = '{right}'");
+    assert_ne!(found("0", &rate("1/(800*k - 1)")), Proved, "it is false for k < 0");
+    assert_eq!(found("0", &rate("1/(400*(|k| + k) - 1)")), Proved);
+    assert_eq!(found("1", &rate("1/(400*(|k| + k) + 399)")), Proved);
+    assert_eq!(found("1", &rate("1/(400*(|k| + k) + 398)")), Refuted);
+    assert_eq!(found("0", "integral = 'energy'"), Proved);
+}
+
+/// Verdict of a claim on a case.
+fn verdict(text: &str, claim: &str) -> Verdict {
+    let case = Case::parse(&format!("{text}[[claim]]\n{claim}\n"), &[]).expect("a case");
+    judge(&case, &Options::default()).expect("a report").claims[0].verdict
+}
+
+#[test]
+fn reactions_exist_where_the_masses_with_the_constraints_are_regular() {
+    // For k < 0 the matrix a M⁻¹ aᵀ is [[0, 1], [1, 2]], and x'' = −1.
+    let indefinite = "title = 'x'\nsystem = 'nonholonomic'\n[parameters]\nk = '-0.001..1'\n[state]\nx = '-1..1'\n\
+        y = '-1..1'\nz = '-1..1'\n\"x'\" = '-1..1'\n\"y'\" = '-1..1'\n\"z'\" = '-1..1'\n[lagrangian]\n\
+        kinetic = \"(x'^2 + |k|/k*y'^2 + z'^2)/2\"\npotential = 'x'\nconstraints = [\"x' + y' = 0\", \"x' + z' = 0\"]\n";
+    assert_ne!(verdict(indefinite, "rate = \"x'\"\nequals = '-1/3'"), Verdict::Proved);
+    assert_eq!(verdict(indefinite, "rate = \"x'\"\nequals = '-1/(2 + |k|/k)'"), Verdict::Proved);
+    // A constraint moves y, which has no mass.
+    let massless = "title = 'x'\nsystem = 'nonholonomic'\n[state]\nx = '-1..1'\ny = '-1..1'\n\"x'\" = '-1..1'\n\
+        \"y'\" = '-1..1'\n[lagrangian]\nkinetic = \"x'^2/2\"\npotential = 'y²/2'\nconstraints = [\"y' - x' = 0\"]\n";
+    assert_eq!(verdict(massless, "integral = 'energy'"), Verdict::Proved);
+    assert_eq!(verdict(massless, "rate = \"x'\"\nequals = '-y'"), Verdict::Proved);
+    assert_eq!(verdict(massless, "rate = \"x'\"\nequals = 'y'"), Verdict::Refuted);
+}
+
+#[test]
+fn geodesics_of_a_distribution_need_no_mass_across_it() {
+    let heisenberg = "title = 'x'\nsystem = 'vakonomic'\n[state]\nx = '-2..2'\ny = '-2..2'\nz = '-2..2'\n\
+        \"x'\" = '-2..2'\n\"y'\" = '-2..2'\n\"z'\" = '-2..2'\nλ = '-2..2'\n[lagrangian]\nkinetic = \"(x'²+y'²)/2\"\n\
+        constraints = [\"z' = (x*y'-y*x')/2\"]\nmultipliers = ['λ']\n";
+    for claim in
+        ["integral = 'λ'", "integral = \"x'² + y'²\"", "integral = 'energy'", "density = '1'"]
+    {
+        assert_eq!(verdict(heisenberg, claim), Verdict::Proved, "{claim}");
+    }
+    assert_eq!(verdict(heisenberg, "integral = \"x'\""), Verdict::Refuted);
+    let along = |sign: &str| verdict(heisenberg, &format!("identity = \"x'' = {sign}λ*y'\""));
+    assert_eq!([along(""), along("-")].iter().filter(|own| **own == Verdict::Proved).count(), 1);
+}
+
+#[test]
+fn masses_are_asked_at_wider_places_too() {
+    // For s < 0 the masses are [[0, 1], [1, 400]], and x'' = y'' = 0.
+    let text = "title = 'x'\n[state]\nx = '-1..1'\ny = '-1..1'\ns = '-0.001..2'\n\"x'\" = '-1..1'\n\"y'\" = '-1..1'\n\
+        \"s'\" = '-1..1'\n[lagrangian]\nkinetic = \"(|s| + s)*x'^2/2 + x'*y' + 200*y'^2 + s'^2/2\"\npotential = '0'\n\
+        [level]\nequations = ['s = 1', \"s' = 0\", \"x' = 0\"]\n[[claim]]\nintegral = \"2*s*x' + y'\"\n";
+    let case = Case::parse(text, &[]).expect("a case");
+    let found = judge(&case, &Options::default()).expect("a report");
+    assert_eq!(found.claims[0].verdict, Verdict::Proved);
+    assert!(!found.claims[0].evidence.holds.contains(&"everywhere".to_string()));
 }

@@ -30,3 +30,22 @@ fn variables_that_vary_on_a_level_may_obey_a_relation_elsewhere() {
         assert!(found.iter().any(|place| place.contains("all")), "{f}: {found:?}");
     }
 }
+
+#[test]
+fn maps_that_can_be_inverted_on_a_level_may_not_be_elsewhere() {
+    // y → 0 for z < 1/2.
+    let places = |factor: &str| {
+        let text = format!(
+            "title = 't'\n[state]\nx = '-1..1'\ny = '-1..1'\nz = '-2..2'\n[field]\n\"x'\" = '1'\n\"y'\" = '0'\n\
+             \"z'\" = '0'\n[level]\nequations = ['z = 1']\n[[claim]]\nsymmetry = {{ y = 'y*({factor})' }}\n"
+        );
+        let case = Case::parse(&text, &[]).expect("a case");
+        let report = judge(&case, &Options::default()).expect("a report");
+        assert_eq!(report.claims[0].verdict, Verdict::Proved);
+        report.claims[0].evidence.holds.clone()
+    };
+    for factor in ["√((z - 1/2)²) + z - 1/2", "exp(ln(z²)/2) + z", "acos(cos(z)) + z"] {
+        assert_eq!(places(factor), ["level"], "{factor}");
+    }
+    assert_eq!(places("exp(z)"), ["everywhere", "level"]);
+}

@@ -2,10 +2,10 @@
 
 use num_dual::Dual;
 
-use super::{Algebra, Lagrangian, VariableRole};
+use super::{Algebra, Lagrangian, LagrangianTerms, VariableRole};
 use crate::formula::Formula;
 use crate::mechanics::calculus::MANY;
-use crate::mechanics::elimination::{dot, solve_positive};
+use crate::mechanics::elimination::{determinant, dot, solve_by_minors, solve_positive};
 use crate::mechanics::{Configuration, Phase, Variable};
 use crate::scalar::Scalar;
 
@@ -29,6 +29,48 @@ pub struct EquationTerms<T> {
     pub drive: Vec<T>,
     /// Derivatives a_ki = ∂f_k/∂w_i, by rows.
     pub slopes: Vec<Vec<T>>,
+}
+
+/// Largest number of velocities and constraints of which a determinant is written out.
+const MOST_ROWS: usize = 10;
+
+impl<T: Scalar> LagrangianEquations<T> {
+    /// Whether there are few velocities and constraints.
+    pub fn is_small(&self) -> bool {
+        self.terms.mass.len() + self.terms.slopes.len() <= MOST_ROWS
+    }
+
+    /// Returns the masses, bordered by the slopes: [[M, aᵀ], [a, 0]] (w', −μ) = (drive, −carried).
+    fn bordered(&self) -> Vec<Vec<T>> {
+        let EquationTerms { mass, slopes, .. } = &self.terms;
+        let upper = mass.iter().enumerate().map(|(i, row)| {
+            row.iter().copied().chain(slopes.iter().map(|slope| slope[i])).collect()
+        });
+        let lower = slopes
+            .iter()
+            .map(|slope| slope.iter().copied().chain(slopes.iter().map(|_| T::zero())).collect());
+        upper.chain(lower).collect()
+    }
+
+    /// Computes the determinant of the masses with that border: where it is not 0, and only there, the equations have
+    /// one solution.
+    pub fn determinant(&self) -> T {
+        determinant(&self.bordered())
+    }
+
+    /// Solves the equations by minors, without pivots.
+    pub(super) fn by_minors(self) -> LagrangianTerms<T> {
+        let opposite = self.carried.iter().map(|own| -*own);
+        let side = self.terms.drive.iter().copied().chain(opposite).collect();
+        let mut acceleration = solve_by_minors(&self.bordered(), &[side]).remove(0);
+        let reactions = acceleration.split_off(self.velocities.len());
+        LagrangianTerms {
+            velocities: self.velocities,
+            acceleration,
+            reactions: reactions.into_iter().map(|own| -own).collect(),
+            drift: self.drift,
+        }
+    }
 }
 
 impl Lagrangian {

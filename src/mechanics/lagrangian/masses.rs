@@ -1,49 +1,164 @@
-//! Signs of the masses ∂²L/∂w² at drawn states.
+//! How equations of motion are solved for the accelerations: by elimination, or by minors of the masses ∂²L/∂w².
 //!
-//! A definite matrix, of either sign, may be eliminated without pivots wherever it is regular: with a
-//! leading minor its determinant vanishes. Others need not have this property, as [[0, 1], [1, 0]].
+//! Elimination divides by leading minors, of the masses and of the matrix a M⁻¹ aᵀ of the reactions. Where they are 0 on no open set, it has a value at almost every state at
+//! which the determinant is not 0; and at all of them where the matrix is definite, as its determinant then vanishes
+//! with a leading minor. Others need minors, as [[0, 1], [1, 0]].
 
 use super::Lagrangian;
-use crate::graph::{Evaluator, Expr, Tape, record};
+use crate::graph::{Evaluator, Expr, Fault, Graph, Step, Tape, divisors_of, record};
+use crate::mechanics::dynamics::Dynamics;
 use crate::mechanics::elimination::{is_indefinite, solve_by_minors, solve_positive};
 use crate::mechanics::{Chart, Configuration, Draw, DrawSource, Model, Phase, combinations};
+use crate::number::UnaryFunction;
 use crate::number::float::Float;
 use crate::number::rational::Rational;
+use crate::proof::{Extent, InputDistribution, Prover};
 use crate::scalar::Scalar;
 
 /// Number of states at which the signs are looked at.
 const STATES: usize = 16;
 /// Largest number of velocities of which the signs are looked at.
 const MOST_VELOCITIES: usize = 32;
+/// Seed of the proofs that leading minors are not 0.
+const SEED: u64 = 1;
+
+/// Masses of a Lagrangian as functions of the draws, with all that elimination divides by.
+struct DrawnMasses {
+    graph: Graph,
+    masses: Vec<Expr>,
+    pivots: Vec<Expr>,
+}
 
 impl Lagrangian {
-    /// Whether ∂²L/∂w² has eigenvalues of both signs at some of the first drawn states, with one choice
-    /// of listed values or another. `false` where
-    /// there are no velocities, or very many, or no value.
-    pub fn has_indefinite_masses(&self, model: &Model, chart: &Chart, free: &[Draw]) -> bool {
+    /// Whether the equations of motion are to be solved by minors: what elimination divides by is not known to be 0 on
+    /// no open set of states, or the matrix has eigenvalues of both signs at some of the first drawn states, with one choice of
+    /// listed values or another. `false` where there are no velocities.
+    pub fn needs_minors(&self, model: &Model, chart: &Chart, free: &[Draw]) -> bool {
         let velocities = self.velocities(&model.state);
-        let count = velocities.len();
-        if count == 0 || count > MOST_VELOCITIES {
+        if velocities.is_empty() || (velocities.len() > MOST_VELOCITIES && !self.has_moduli(model))
+        {
             return false;
         }
-        let kept = vec![true; model.level.len()];
-        let draws = [model.parameter_draws(), chart.draws(free, &kept)].concat();
-        let recorded = record(draws.len(), |inputs| {
-            let (parameters, state) = model.make_parameters(inputs);
-            let state = chart.point(model, &kept, &parameters, state);
-            let at = Phase::new(model, &parameters, &state).configuration;
-            self.masses(&at, &velocities).concat()
+        let draws =
+            [model.parameter_draws(), chart.draws(free, &vec![true; model.level.len()])].concat();
+        let none = vec![None; draws.len()];
+        let Some(choices) = combinations(&draws) else { return true };
+        // Nothing has a value for a mass without one.
+        let drawn = |choice: &Vec<Option<Rational>>| {
+            self.drawn_masses((model, chart), &velocities, choice).ok()
+        };
+        let is_regular = |choice: &Vec<Option<Rational>>| {
+            drawn(choice).is_none_or(|own| own.has_pivots(&draws).unwrap_or(false))
+        };
+        if !choices.iter().all(is_regular) {
+            return true;
+        }
+        let Some(own) = drawn(&none) else { return false };
+        velocities.len() <= MOST_VELOCITIES
+            && own.is_indefinite_somewhere(velocities.len(), &draws, &choices)
+    }
+
+    /// Whether a modulus occurs in 𝓛.
+    fn has_moduli(&self, model: &Model) -> bool {
+        let parameters = model.free_components();
+        let recorded = record(parameters + model.dimension(), |inputs| {
+            let (parameters, state) = inputs.split_at(parameters);
+            self.lagrangian(&Phase::new(model, parameters, state).configuration, self.vakonomic)
         });
-        let Ok((graph, masses)) = recorded else { return false };
+        let is_modulus = |step: Step<'_>| matches!(step, Step::Unary(UnaryFunction::Abs, _));
+        recorded.is_ok_and(|(graph, value)| graph.has_step(&[value], is_modulus))
+    }
+
+    fn drawn_masses(
+        &self,
+        (model, chart): (&Model, &Chart),
+        velocities: &[usize],
+        choice: &[Option<Rational>],
+    ) -> Result<DrawnMasses, Fault> {
+        let kept = vec![true; model.level.len()];
+        let (graph, (masses, pivots)) = record(choice.len(), |inputs| {
+            let fixed = inputs.iter().zip(choice);
+            let inputs: Vec<Expr> =
+                fixed.map(|(own, value)| value.as_ref().map_or(*own, Expr::rational)).collect();
+            let (parameters, state) = model.make_parameters(&inputs);
+            let state = chart.point(model, &kept, &parameters, state);
+            let phase = Phase::new(model, &parameters, &state);
+            let pivots = divisors_of(|| {
+                self.field(&phase);
+            });
+            (self.masses(&phase.configuration, velocities).concat(), pivots)
+        })?;
+        Ok(DrawnMasses { graph, masses, pivots })
+    }
+
+    fn masses(&self, at: &Configuration<'_, Expr>, velocities: &[usize]) -> Vec<Vec<Expr>> {
+        let drift = self.drift(at);
+        let none = |_: usize| <Expr as num_traits::Zero>::zero();
+        let terms = self
+            .swept_terms(at, velocities, &drift, none)
+            .unwrap_or_else(|| self.lifted_terms(at, velocities, &drift, none));
+        terms.mass
+    }
+
+    /// Solves M x = b with the masses M.
+    pub(super) fn solved<T: Scalar>(&self, mass: &[Vec<T>], sides: Vec<Vec<T>>) -> Vec<Vec<T>> {
+        match self.may_be_eliminated(mass) {
+            true => eliminated(mass, sides),
+            false => solve_by_minors(mass, &sides),
+        }
+    }
+
+    /// Whether these masses may be eliminated: an entry of the diagonal that is 0 by its form excludes it.
+    pub(super) fn may_be_eliminated<T: Scalar>(&self, mass: &[Vec<T>]) -> bool {
+        let is_present =
+            |(i, row): (usize, &Vec<T>)| row.get(i).is_some_and(|own| !own.is_absent());
+        !self.needs_minors && mass.iter().enumerate().all(is_present)
+    }
+}
+
+/// Solves A x = b by elimination.
+pub(super) fn eliminated<T: Scalar>(matrix: &[Vec<T>], sides: Vec<Vec<T>>) -> Vec<Vec<T>> {
+    sides.into_iter().map(|side| solve_positive(matrix.to_vec(), side)).collect()
+}
+
+impl DrawnMasses {
+    /// Whether each pivot is proved to be 0 on no open set of states.
+    fn has_pivots(&self, draws: &[Draw]) -> Result<bool, Fault> {
+        let source = |draw: &Draw| match draw {
+            Draw::Sign => InputDistribution::Sign,
+            _ => InputDistribution::Uniform,
+        };
+        let sources: Vec<InputDistribution> = draws.iter().map(source).collect();
+        let extents: Vec<Extent> = draws.iter().map(Draw::extent).collect();
+        let prover = Prover { sources: &sources, extents: &extents, seed: SEED };
+        for pivot in &self.pivots {
+            let is_known = match self.graph.constant_value(*pivot) {
+                Some(value) => !value.is_zero(),
+                None => prover.is_nonzero_on_all_cells(&self.graph, *pivot)?,
+            };
+            if !is_known {
+                return Ok(false);
+            }
+        }
+        Ok(true)
+    }
+
+    /// Whether f64 shows eigenvalues of both signs at one of the first states, for one of some choices of listed
+    /// values.
+    fn is_indefinite_somewhere(
+        &self,
+        count: usize,
+        draws: &[Draw],
+        choices: &[Vec<Option<Rational>>],
+    ) -> bool {
         // Values of arbitrary functions are further inputs, of which nothing is known.
-        if graph.inputs() > draws.len() {
+        if self.graph.inputs() > draws.len() {
             return false;
         }
-        let choices = combinations(&draws).unwrap_or_else(|| vec![vec![None; draws.len()]]);
-        let source = DrawSource::new(&draws);
+        let source = DrawSource::new(draws);
         let states: Vec<Vec<(f64, bool)>> =
             (0..STATES as u64).map(|index| source.nearest(0, index, 0)).collect();
-        let tape = Tape::new(&graph, &masses);
+        let tape = Tape::new(&self.graph, &self.masses);
         let mut evaluator = Evaluator::new(&tape, Float::<STATES>);
         // Few of the states may have the values of one choice.
         choices.iter().any(|choice| {
@@ -62,35 +177,5 @@ impl Lagrangian {
                 is_indefinite(&matrix)
             })
         })
-    }
-
-    fn masses(&self, at: &Configuration<'_, Expr>, velocities: &[usize]) -> Vec<Vec<Expr>> {
-        let drift = self.drift(at);
-        let none = |_: usize| <Expr as num_traits::Zero>::zero();
-        let terms = self
-            .swept_terms(at, velocities, &drift, none)
-            .unwrap_or_else(|| self.lifted_terms(at, velocities, &drift, none));
-        terms.mass
-    }
-
-    /// Solves M x = b with the masses M, or with a matrix a M⁻¹ aᵀ of slopes by the velocities.
-    pub(super) fn solved<T: Scalar>(
-        &self,
-        is_definite: bool,
-        matrix: &[Vec<T>],
-        sides: Vec<Vec<T>>,
-    ) -> Vec<Vec<T>> {
-        match is_definite {
-            true => sides.into_iter().map(|side| solve_positive(matrix.to_vec(), side)).collect(),
-            false => solve_by_minors(matrix, &sides),
-        }
-    }
-
-    /// Whether nothing is known that keeps these masses from being definite: an entry of the diagonal
-    /// that is 0 by its form does.
-    pub(super) fn may_be_definite<T: Scalar>(&self, mass: &[Vec<T>]) -> bool {
-        let is_present =
-            |(i, row): (usize, &Vec<T>)| row.get(i).is_some_and(|own| !own.is_absent());
-        !self.is_indefinite && mass.iter().enumerate().all(is_present)
     }
 }

@@ -48,7 +48,7 @@ impl Lagrangian {
         let of_velocities = |gradient: &Vec<T>| pairs.iter().map(|(_, w)| gradient[*w]).collect();
         let masses = &slopes.by_velocities;
         let sides: Vec<Vec<T>> = gradients.iter().map(of_velocities).collect();
-        let by_momenta = self.solved(self.may_be_definite(masses), masses, sides);
+        let by_momenta = self.solved(masses, sides);
         let whole = |(gradient, by_momenta): (&Vec<T>, Vec<T>)| {
             let by_coordinates = pairs.iter().enumerate().map(|(j, (q, _))| {
                 let column: Vec<T> = slopes.by_coordinates.iter().map(|row| row[j]).collect();

@@ -10,12 +10,21 @@ use crate::number::rational::Rational;
 use super::Extent;
 
 impl Extent {
-    /// Applies an increasing function that is defined above `least`.
-    fn rising(self, least: f64, f: impl Fn(f64) -> f64) -> Self {
+    /// Applies an increasing function that is defined above `least`, and exact at `at`.
+    fn rising(self, least: f64, at: f64, f: impl Fn(f64) -> f64) -> Self {
         if self.high < least {
             return Self::EMPTY;
         }
-        let (low, high) = (f(self.low.max(least)), f(self.high));
+        let [low, high] = [self.low.max(least), self.high];
+        let wide = Self::twice_outward(f(low), f(high));
+        Self {
+            low: if low == at { f(at) } else { wide.low },
+            high: if high == at { f(at) } else { wide.high },
+        }
+    }
+
+    /// Moves two computed ends outwards by two steps.
+    fn twice_outward(low: f64, high: f64) -> Self {
         let once = Self::outward(low, high);
         Self::outward(once.low, once.high)
     }
@@ -26,12 +35,12 @@ impl Extent {
             UnaryFunction::Neg => self.negated(),
             UnaryFunction::Abs => self.modulus(),
             UnaryFunction::Recip => self.reciprocal(),
-            UnaryFunction::Sqrt => self.rising(0.0, f64::sqrt).within(true),
-            UnaryFunction::Exp => self.rising(f64::NEG_INFINITY, libm::exp).within(true),
-            UnaryFunction::Ln => self.rising(0.0, libm::log),
+            UnaryFunction::Sqrt => self.rising(0.0, 0.0, f64::sqrt).within(true),
+            UnaryFunction::Exp => self.rising(f64::NEG_INFINITY, 0.0, libm::exp).within(true),
+            UnaryFunction::Ln => self.rising(0.0, 1.0, libm::log),
             UnaryFunction::Sin => self.sine(),
             UnaryFunction::Cos => self.plus(Self::outward(FRAC_PI_2, FRAC_PI_2)).sine(),
-            UnaryFunction::Atan => self.rising(f64::NEG_INFINITY, libm::atan),
+            UnaryFunction::Atan => self.rising(f64::NEG_INFINITY, 0.0, libm::atan),
         }
     }
 
@@ -48,9 +57,12 @@ impl Extent {
         if !(low >= -FAR && high <= FAR) {
             return Self::SIGN;
         }
-        let ends = [libm::sin(low), libm::sin(high)];
-        let once = Self::outward(ends[0].min(ends[1]), ends[0].max(ends[1]));
-        let mut found = Self::outward(once.low, once.high);
+        let at = |x: f64| match x == 0.0 {
+            true => Self::ZERO,
+            false => Self::twice_outward(libm::sin(x), libm::sin(x)),
+        };
+        let (start, end) = (at(low), at(high));
+        let mut found = Self { low: start.low.min(end.low), high: start.high.max(end.high) };
         // Whether an odd quarter of a turn lies inside: 1 of 4 for the crest, 3 of 4 for the
         // trough.
         let passes = |quarter: f64| {

@@ -122,3 +122,17 @@ fn products_of_ends_are_rounded_as_far_as_they_must() {
         assert_eq!(found, expected, "{x:?} times {y:?}");
     }
 }
+
+#[test]
+fn functions_are_exact_where_their_values_are() {
+    let unit = Extent { low: 0.0, high: 1.0 };
+    for function in [UnaryFunction::Sin, UnaryFunction::Atan, UnaryFunction::Sqrt] {
+        let found = unit.unary(function);
+        assert_eq!(found.low, 0.0, "{function:?}");
+    }
+    assert_eq!(unit.unary(UnaryFunction::Exp).low, 1.0);
+    assert_eq!(unit.negated().unary(UnaryFunction::Exp).high, 1.0);
+    assert_eq!(Extent { low: 1.0, high: 2.0 }.unary(UnaryFunction::Ln).low, 0.0);
+    assert!(Extent { low: 2.0, high: 3.0 }.unary(UnaryFunction::Ln).low < libm::log(2.0));
+    assert!(Extent { low: 0.0, high: 4.0 }.unary(UnaryFunction::Sin).low < -0.7, "4 > π");
+}

@@ -1,0 +1,60 @@
+//! Nothing is proved of motions on a level that they leave, or may leave, at few of its states.
+
+use liouville::case::Case;
+use liouville::verdict::{ClaimReport, Options, Verdict, judge};
+
+/// Reports on claims about x' = y(|z| − z), w' = x, where z is negative at few states.
+fn reports(z: &str, level: &str, claims: &[&str]) -> Result<Vec<ClaimReport>, String> {
+    let claims: String = claims.iter().map(|claim| format!("[[claim]]\n{claim}\n")).collect();
+    let text = format!(
+        "title = 'x'\n[state]\nx = '-1..1'\ny = '-1..1'\nz = '{z}'\nw = '-1..1'\n[field]\n\"x'\" = 'y*(|z| - z)'\n\
+         \"y'\" = '0'\n\"z'\" = '0'\n\"w'\" = 'x'\n[level]\nequations = [{level}]\n{claims}"
+    );
+    let case = Case::parse(&text, &[]).expect("a case");
+    judge(&case, &Options::default()).map(|found| found.claims).map_err(|error| error.to_string())
+}
+
+#[test]
+fn a_level_that_the_motion_leaves_at_few_states_is_an_error() {
+    let claims = ["form = { 'y,w' = '1' }", "density = '1'", "integral = 'w'"];
+    for z in ["-0.0005..1", "-1..1"] {
+        let error = reports(z, "'x = 0'", &claims).expect_err(z);
+        assert!(error.contains("leaves `x = 0`"), "{error}");
+    }
+    let kept = reports("0.5..1", "'x = 0'", &claims).expect("z is positive");
+    assert!(kept.iter().all(|claim| claim.verdict == Verdict::Proved));
+}
+
+#[test]
+fn a_wider_place_that_the_motion_leaves_is_not_named() {
+    let holds = |z: &str| {
+        let found = reports(z, "'x = 0', 'y = 0'", &["integral = 'w'"]).expect("a report");
+        assert_eq!(found[0].verdict, Verdict::Proved, "{z}");
+        found[0].evidence.holds.clone()
+    };
+    assert_eq!(
+        holds("-0.001..1"),
+        ["level"],
+        "from x = 0, y = 1 with z < 0 the motion leaves x = 0"
+    );
+    assert_eq!(holds("0.5..1"), ["x = 0", "level"]);
+    let there = reports("-0.001..1", "'x = 0', 'y = 0'", &["integral = 'w'\nwhere = 'x = 0'"]);
+    assert_eq!(there.expect("a report")[0].verdict, Verdict::Undecided);
+}
+
+#[test]
+fn slopes_are_asked_on_parts_of_which_no_state_is_found() {
+    // The part u = 0, of which no drawn state is near, has the slope 0, and the motion leaves it.
+    let verdict = |factor: &str, size: &str| {
+        let text = format!(
+            "title = 'x'\n[state]\nx = '-1..1'\ny = '-1..1'\nz = '-1..1'\nv = '-1..1'\nw = '-1..1'\n[field]\n\
+             \"x'\" = '1'\n\"y'\" = '0'\n\"z'\" = '0'\n\"v'\" = '0'\n\"w'\" = 'y*u'\n[let]\n\
+             u = 'x - {size}*(z*exp(v) + v*exp(2*z) - z^3*v + sin(z - v^2) - 1/3)'\n[level]\n\
+             equations = ['y*u*{factor} = 0']\n[[claim]]\nintegral = 'w'\n"
+        );
+        let case = Case::parse(&text, &[]).expect("a case");
+        judge(&case, &Options::default()).expect("a report").claims[0].verdict
+    };
+    assert_eq!(verdict("(exp(u) - 1)", "10^12"), Verdict::Undecided);
+    assert_eq!(verdict("(exp(u) - 1)", "1"), Verdict::Undecided);
+}
