@@ -13,16 +13,19 @@ use crate::number::Enclosing;
 use crate::number::arb::Approximation;
 use crate::number::ball::{Ball, Balls};
 use crate::number::mixed::{Mixed, Number};
+use crate::number::prime::Modulus;
 use crate::number::rational::Rational;
+use crate::proof::{ProofRng, ProofStream};
 
 /// Largest number of states without a value in f64 that are examined further, for residuals of
 /// many operations.
 const MOST_MISSING: usize = 16;
 /// Number of steps through a range, of which states beside another are a few away.
 const NEAR: i64 = 1 << 30;
-/// Prime modulo which the directions to neighbours are made, and a factor for each of them.
-const MODULUS: i64 = 997;
-const FACTORS: [i64; 3] = [463, 719, 251];
+/// Number of directions to neighbours.
+const DIRECTIONS: u64 = 3;
+/// Number of bits of the components of a direction.
+const SHARE_BITS: u32 = 40;
 /// Share of doubtful states above which a claim is not confirmed: one in this many.
 const MAX_DOUBTFUL: usize = 4;
 
@@ -38,12 +41,10 @@ pub(super) fn neighbours(sampler: &Sampler, index: u64) -> Vec<Vec<Rational>> {
 
 /// Lists draws on opposite sides of given ones in several directions, in the ranges.
 pub(super) fn around(sampler: &Sampler, numbers: &[Rational]) -> Vec<Vec<Rational>> {
-    let on_side = |(factor, side): (i64, i64)| {
+    let on_side = |(direction, side): (u64, i64)| {
+        let shares = shares(direction, numbers.len());
         let moved = |(k, (value, draw)): (usize, (&Rational, &Draw))| {
-            // No plane with short coefficients contains all directions.
-            let place = k as i64 % MODULUS + 1;
-            let share = (place * place * place + factor * place) % MODULUS + 1;
-            let step = Rational::new(side * share, NEAR * MODULUS);
+            let step = &Rational::new(side * shares[k], 1 << SHARE_BITS) * &Rational::new(1, NEAR);
             match draw {
                 Draw::Within(range) => {
                     let away = &step * &(&range.high - &range.low);
@@ -57,8 +58,16 @@ pub(super) fn around(sampler: &Sampler, numbers: &[Rational]) -> Vec<Vec<Rationa
         };
         numbers.iter().zip(sampler.recipes()).enumerate().map(moved).collect()
     };
-    let sides = FACTORS.into_iter().flat_map(|factor| [(factor, 1), (factor, -1)]);
+    let sides = (0..DIRECTIONS).flat_map(|direction| [(direction, 1), (direction, -1)]);
     sides.map(on_side).collect()
+}
+
+/// Components of a direction, hashed: no plane with short coefficients contains all directions.
+fn shares(direction: u64, count: usize) -> Vec<i64> {
+    let modulus = Modulus::new((1 << 61) - 1);
+    let mut rng = ProofRng::new(direction, ProofStream::Neighbours as u64);
+    let share = |_| (rng.element(&modulus) >> (61 - SHARE_BITS)) as i64 + 1;
+    (0..count).map(share).collect()
 }
 
 impl Judging<'_> {

@@ -191,9 +191,11 @@ fn is_monotone(
 ) -> bool {
     let extents = sampler.extents();
     let is_nonzero = |value: Expr| is_nowhere_zero(graph, &extents, &[], &[value]);
-    let Some(edges) = edges(graph, &[value]) else { return false };
-    edges.into_iter().all(is_nonzero)
-        && (is_nonzero(slope)
+    let has_none =
+        |value: Expr| edges(graph, &[value]).is_some_and(|edges| edges.into_iter().all(is_nonzero));
+    // A slope as x²·2/x is 0 nowhere, and has no value at 0.
+    has_none(value)
+        && (is_nonzero(slope) && has_none(slope)
             || sign(graph, &extents, &[], &[], slope).is_some()
                 && is_nonzero_somewhere(graph, &sampler.with(fixed), slope))
 }

@@ -159,7 +159,7 @@ fn a_ball_without_moment_of_inertia_has_no_equations_of_motion() {
     let ball = |moment: &str| {
         let text = format!(
             "title = 'x'\nsystem = 'ball-on-surface'\n[parameters]\nm = '1..2'\nR = '1..2'\nk = '-1..1'\n\
-             μ = '{moment}'\n[body]\nsurface = 'r3'\n[[claim]]\nintegral = 'M'\n"
+             mu = '{moment}'\n[body]\nsurface = 'r3'\n[[claim]]\nintegral = 'M'\n"
         );
         let case = Case::parse(&text, &[]).expect("a case");
         judge(&case, &Options::default()).map(|report| report.claims[0].verdict)
@@ -210,15 +210,15 @@ fn reactions_exist_where_the_masses_with_the_constraints_are_regular() {
 #[test]
 fn geodesics_of_a_distribution_need_no_mass_across_it() {
     let heisenberg = "title = 'x'\nsystem = 'vakonomic'\n[state]\nx = '-2..2'\ny = '-2..2'\nz = '-2..2'\n\
-        \"x'\" = '-2..2'\n\"y'\" = '-2..2'\n\"z'\" = '-2..2'\nλ = '-2..2'\n[lagrangian]\nkinetic = \"(x'²+y'²)/2\"\n\
-        constraints = [\"z' = (x*y'-y*x')/2\"]\nmultipliers = ['λ']\n";
+        \"x'\" = '-2..2'\n\"y'\" = '-2..2'\n\"z'\" = '-2..2'\nlambda = '-2..2'\n[lagrangian]\nkinetic = \"(x'²+y'²)/2\"\n\
+        constraints = [\"z' = (x*y'-y*x')/2\"]\nmultipliers = ['lambda']\n";
     for claim in
-        ["integral = 'λ'", "integral = \"x'² + y'²\"", "integral = 'energy'", "density = '1'"]
+        ["integral = 'lambda'", "integral = \"x'² + y'²\"", "integral = 'energy'", "density = '1'"]
     {
         assert_eq!(verdict(heisenberg, claim), Verdict::Proved, "{claim}");
     }
     assert_eq!(verdict(heisenberg, "integral = \"x'\""), Verdict::Refuted);
-    let along = |sign: &str| verdict(heisenberg, &format!("identity = \"x'' = {sign}λ*y'\""));
+    let along = |sign: &str| verdict(heisenberg, &format!("identity = \"x'' = {sign}lambda*y'\""));
     assert_eq!([along(""), along("-")].iter().filter(|own| **own == Verdict::Proved).count(), 1);
 }
 

@@ -122,8 +122,21 @@ pub(super) fn eliminated<T: Scalar>(matrix: &[Vec<T>], sides: Vec<Vec<T>>) -> Ve
 }
 
 impl DrawnMasses {
-    /// Whether each pivot is proved to be 0 on no open set of states.
+    /// Whether each divisor is seen to be 0 on no open set of states: in f64 at one of them, where it is one analytic
+    /// function, or by a proof on each cell of signs of its moduli and roots.
     fn has_pivots(&self, draws: &[Draw]) -> Result<bool, Fault> {
+        let has_kinks = self.graph.has_step(&self.pivots, |step| match step {
+            Step::Unary(UnaryFunction::Abs | UnaryFunction::Sqrt, _) => true,
+            Step::Power(_, exponent) => exponent.to_integer().is_none(),
+            _ => false,
+        });
+        if !has_kinks {
+            let tape = Tape::new(&self.graph, &self.pivots);
+            let mut evaluator = Evaluator::new(&tape, Float::<STATES>);
+            evaluator.run(&drawn_numbers(draws, self.graph.inputs()));
+            let is_seen = |value: &[f64; STATES]| value.iter().any(|x| *x != 0.0 || x.is_nan());
+            return Ok(evaluator.outputs().all(is_seen));
+        }
         let source = |draw: &Draw| match draw {
             Draw::Sign => InputDistribution::Sign,
             _ => InputDistribution::Uniform,
@@ -155,18 +168,15 @@ impl DrawnMasses {
         if self.graph.inputs() > draws.len() {
             return false;
         }
-        let source = DrawSource::new(draws);
-        let states: Vec<Vec<(f64, bool)>> =
-            (0..STATES as u64).map(|index| source.nearest(0, index, 0)).collect();
+        let states = drawn_numbers(draws, draws.len());
         let tape = Tape::new(&self.graph, &self.masses);
         let mut evaluator = Evaluator::new(&tape, Float::<STATES>);
         // Few of the states may have the values of one choice.
         choices.iter().any(|choice| {
-            let input = |(draw, value): (usize, &Option<Rational>)| {
-                let value = value.as_ref().map(|value| value.to_f64().0);
-                std::array::from_fn(|lane| value.unwrap_or(states[lane][draw].0))
+            let input = |(drawn, value): (&[f64; STATES], &Option<Rational>)| {
+                value.as_ref().map_or(*drawn, |value| [value.to_f64().0; STATES])
             };
-            let inputs: Vec<[f64; STATES]> = choice.iter().enumerate().map(input).collect();
+            let inputs: Vec<[f64; STATES]> = states.iter().zip(choice).map(input).collect();
             evaluator.run(&inputs);
             let entries: Vec<[f64; STATES]> = evaluator.outputs().copied().collect();
             (0..STATES).any(|lane| {
@@ -178,4 +188,13 @@ impl DrawnMasses {
             })
         })
     }
+}
+
+/// The first states as numbers, draw by draw; values of arbitrary functions are further inputs, and are 1.
+fn drawn_numbers(draws: &[Draw], inputs: usize) -> Vec<[f64; STATES]> {
+    let source = DrawSource::new(draws);
+    let states: Vec<Vec<(f64, bool)>> =
+        (0..STATES as u64).map(|index| source.nearest(0, index, 0)).collect();
+    let of = |draw: usize| std::array::from_fn(|lane| states[lane].get(draw).map_or(1.0, |x| x.0));
+    (0..inputs).map(of).collect()
 }

@@ -2,7 +2,7 @@
 //! integrals that the case claims and that are proved.
 
 use crate::FlowError;
-use crate::motion::kept::is_proved;
+use crate::motion::kept::{is_energy_proved, is_proved};
 use crate::motion::recorded::point;
 use crate::motion::start::{LevelFunctions, Start};
 use crate::section::axis::{AxisMistake, number_with_pi};
@@ -71,11 +71,11 @@ impl Conserved {
 
     /// Whether it is proved that the motions of the case keep the function.
     pub(crate) fn is_proved(&self, case: &Case) -> bool {
-        let text = match self {
-            Conserved::Energy => ENERGY,
-            Conserved::Integral { formula, .. } => formula.text(),
-        };
-        is_proved(case, text, &Options::default())
+        let options = Options::default();
+        match self {
+            Conserved::Energy => is_energy_proved(case, &options),
+            Conserved::Integral { formula, .. } => is_proved(case, formula, &options),
+        }
     }
 
     /// Index of the claimed integral of a name, if it is proved; the energy has none.

@@ -6,8 +6,8 @@ use crate::motion::recorded::program;
 use crate::motion::start::Start;
 use crate::taylor::stepper::{Accuracy, Stepper};
 use liouville::case::Case;
-use liouville::claim::Claim;
-use liouville::mechanics::Model;
+use liouville::claim::{Claim, ClaimEntry};
+use liouville::mechanics::{Meaning, Model, Quantity};
 use liouville::number::double_double::DoubleDouble;
 use liouville::verdict::{self, JudgeError, Options, Trust, Verdict};
 
@@ -26,8 +26,11 @@ pub fn check_level(case: &Case, seed: u64) -> Result<(), JudgeError> {
     }
 }
 
+/// Name of the energy of a system, unless a file gives it to another function.
+const ENERGY: &str = "energy";
+
 /// Verdict on the claim that a function is an integral on the level, if it can be judged.
-fn judged(case: &Case, function: &str, options: &Options) -> Option<Verdict> {
+fn judged(case: &Case, function: impl Into<ClaimEntry>, options: &Options) -> Option<Verdict> {
     let asked = case.with_claims(&[Claim::integral(function)]).ok()?;
     let options = Options { trust: Trust::Best, mutants: false, ..*options };
     let report = verdict::judge(&asked, &options).ok()?;
@@ -35,8 +38,23 @@ fn judged(case: &Case, function: &str, options: &Options) -> Option<Verdict> {
 }
 
 /// Whether a function is proved to be an integral on the level.
-pub(crate) fn is_proved(case: &Case, function: &str, options: &Options) -> bool {
+pub(crate) fn is_proved(case: &Case, function: impl Into<ClaimEntry>, options: &Options) -> bool {
     judged(case, function, options) == Some(Verdict::Proved)
+}
+
+/// Whether the energy of the system is proved to be an integral.
+pub(crate) fn is_energy_proved(case: &Case, options: &Options) -> bool {
+    judged_energy(case, options) == Some(Verdict::Proved)
+}
+
+/// Verdict on the claim that the energy of the system is an integral. There is none where the file means another
+/// function by its name.
+fn judged_energy(case: &Case, options: &Options) -> Option<Verdict> {
+    let formula = case.formula(ENERGY).ok()?;
+    let symbol = formula.symbols().next()?;
+    let meaning = &case.model.vocabulary.entry(symbol).meaning;
+    matches!(meaning, Meaning::Quantity(Quantity::Energy))
+        .then(|| judged(case, formula, options))?
 }
 
 /// Whether motions keep the energy. Where that is neither proved nor refuted, the energy is followed
@@ -50,7 +68,7 @@ pub(crate) fn keeps_energy(
     if !model.system.has_energy() {
         return Ok(false);
     }
-    match judged(case, "energy", &Options::default()) {
+    match judged_energy(case, &Options::default()) {
         Some(Verdict::Proved) => Ok(true),
         Some(Verdict::Refuted) => Ok(false),
         _ => drifts_by_rounding(model, start, time),

@@ -4,11 +4,11 @@
 use std::borrow::Cow;
 
 use super::scene::FollowedCase;
-use crate::motion::kept::is_proved;
+use crate::motion::kept::{is_energy_proved, is_proved};
 use crate::{Enclosure, FlowError, Loose, Obstacle, ProvedHorseshoe, ProvedOrbit, Request, Start};
 use liouville::case::Case;
-use liouville::claim::clock;
 use liouville::claim::motion::{Beginning, ClosedOrbit, Horseshoe, Neighbourhood};
+use liouville::claim::{ClaimEntry, clock};
 use liouville::formula::Formula;
 use liouville::mechanics::{
     Chart, Draw, LevelFunction, NumberLine, Parameter, ParameterOrigin, SamplerSpec,
@@ -236,20 +236,21 @@ fn centres(case: &Case) -> Vec<Rational> {
 /// Checks that the level functions and the claimed integrals are proved to be conserved. Returns
 /// whether the energy is.
 fn kept(case: &Case, integrals: &[Formula], options: &Options) -> Result<bool, String> {
-    let level = case.model.level.iter().map(|equation| match &equation.function {
-        LevelFunction::UnitNormal => "(γ,γ)".to_string(),
-        LevelFunction::NoSpin => "(ω,γ)".to_string(),
-        LevelFunction::Formula(_) => match equation.text.split_once('=') {
-            Some((left, right)) => format!("({left}) - ({right})"),
-            None => equation.text.clone(),
-        },
+    let level = case.model.level.iter().map(|equation| {
+        let function = match &equation.function {
+            LevelFunction::UnitNormal => ClaimEntry::from("(γ,γ)"),
+            LevelFunction::NoSpin => ClaimEntry::from("(ω,γ)"),
+            LevelFunction::Formula(formula) => ClaimEntry::from(formula),
+        };
+        (function, equation.text.as_str())
     });
-    let integrals = integrals.iter().map(|formula| formula.text().to_string());
-    let needed: Vec<String> = level.chain(integrals).collect();
-    if let Some(text) = needed.iter().find(|text| !is_proved(case, text, options)) {
-        return Err(format!("it is not proved that the motion keeps {}", text.trim()));
+    let integrals = integrals.iter().map(|formula| (ClaimEntry::from(formula), formula.text()));
+    for (function, text) in level.chain(integrals) {
+        if !is_proved(case, function, options) {
+            return Err(format!("it is not proved that the motion keeps {}", text.trim()));
+        }
     }
-    Ok(case.model.system.has_energy() && is_proved(case, "energy", options))
+    Ok(case.model.system.has_energy() && is_energy_proved(case, options))
 }
 
 /// Reason why a box of states does not lie where identities are proved: near a state that can be drawn

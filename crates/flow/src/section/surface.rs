@@ -98,7 +98,7 @@ impl CrossingSurface {
             Some((left, right)) => format!("({left}) - ({right})"),
             None => self.text.clone(),
         };
-        is_proved(case, &function, &Options::default())
+        is_proved(case, function.as_str(), &Options::default())
     }
 
     /// Value of f - g at a point.

@@ -3,6 +3,7 @@
 
 mod boxes;
 mod horseshoes;
+mod kept;
 mod least;
 mod nearby;
 

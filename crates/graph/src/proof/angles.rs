@@ -1,7 +1,8 @@
 //! Sines and cosines of sums with arctangents.
 //!
 //! The cosine and the sine of E = R + Σ n_j atan u_j are the parts of the complex number e^(iR) Π z_j^n_j,
-//! z_j = (1 + i u_j)/√(1 + u_j²), at all real u_j.
+//! z_j = (1 + i u_j)/√(1 + u_j²), at all real u_j. Multiples of π/12, as 4/3 atan 1 = π/3, are turned by numbers
+//! made of √2 and √3.
 
 use rustc_hash::FxHashMap;
 
@@ -24,6 +25,8 @@ pub struct Angle {
     arctangents: Vec<(usize, i64)>,
     /// Places of the terms of R with their multiples.
     rest: Vec<(usize, Rational)>,
+    /// Number of twelfths of π.
+    twelfths: i64,
 }
 
 /// Lists the sums with arctangents whose sines and cosines some values need.
@@ -68,9 +71,9 @@ pub fn arguments(graph: &Graph, values: &[Expr]) -> Vec<usize> {
 }
 
 impl Angle {
-    /// Takes a sum apart; `None` if it contains no arctangents.
+    /// Takes a sum apart; `None` if it contains no arctangents and no broken parts of a quarter turn.
     fn of(graph: &Graph, place: usize) -> Option<Self> {
-        let mut found = Self { arctangents: Vec::new(), rest: Vec::new() };
+        let mut found = Self { arctangents: Vec::new(), rest: Vec::new(), twelfths: 0 };
         let mut open = vec![(place, Rational::from(1))];
         while let Some((at, factor)) = open.pop() {
             if found.arctangents.len() + found.rest.len() + open.len() > MOST_TERMS {
@@ -94,7 +97,13 @@ impl Angle {
                 Step::Binary(BinaryOperation::Mul, a, b) if number(b).is_some() => {
                     open.push((a, &factor * number(b)?));
                 }
-                // Multiples of atan 1 are quarter turns.
+                // atan 1 = π/4, and a whole turn has 24 twelfths of π.
+                Step::Unary(UnaryFunction::Atan, a) if number(a).is_some_and(Rational::is_one) => {
+                    match (&factor * &Rational::from(3)).to_integer() {
+                        Some(twelfths) => found.twelfths = (found.twelfths + twelfths % 24) % 24,
+                        None => found.rest.push((at, factor)),
+                    }
+                }
                 Step::Unary(UnaryFunction::Atan, a) if number(a).is_none() => {
                     let multiple = factor.to_integer().filter(|n| n.abs() <= LARGEST_MULTIPLE);
                     match multiple {
@@ -105,7 +114,8 @@ impl Angle {
                 _ => found.rest.push((at, factor)),
             }
         }
-        (!found.arctangents.is_empty()).then_some(found)
+        let has_broken_part = found.twelfths % 6 != 0;
+        (has_broken_part || !found.arctangents.is_empty()).then_some(found)
     }
 
     /// Records the sine or the cosine, from the values at places.
@@ -134,6 +144,72 @@ impl Angle {
                 point = turned(point, [one / root, u / root]);
             }
         }
-        Some(point[usize::from(sine)])
+        Some(turned(point, twelfths_of_pi(self.twelfths))[usize::from(sine)])
+    }
+}
+
+/// Records the cosine and the sine of some twelfths of π.
+fn twelfths_of_pi(count: i64) -> [Expr; 2] {
+    let number = |above: i64, below: i64| Expr::rational(&Rational::new(above, below));
+    let root = |of: i64| number(of, 1).apply(UnaryFunction::Sqrt);
+    let slanted = |side: Expr| root(2) * (root(3) + side) * number(1, 4);
+    let [c, s] = match count.rem_euclid(6) {
+        0 => [number(1, 1), number(0, 1)],
+        1 => [slanted(number(1, 1)), slanted(number(-1, 1))],
+        2 => [root(3) * number(1, 2), number(1, 2)],
+        3 => [root(2) * number(1, 2), root(2) * number(1, 2)],
+        4 => [number(1, 2), root(3) * number(1, 2)],
+        _ => [slanted(number(-1, 1)), slanted(number(1, 1))],
+    };
+    match count.rem_euclid(24) / 6 {
+        0 => [c, s],
+        1 => [-s, c],
+        2 => [-c, -s],
+        _ => [s, -c],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::graph::{Evaluator, Tape};
+    use crate::number::float::Float;
+
+    #[test]
+    fn twelfths_of_pi_are_those_of_the_circle() {
+        for count in -30..50i64 {
+            let (graph, point) = record(0, |_| twelfths_of_pi(count)).expect("records");
+            let tape = Tape::new(&graph, &point);
+            let mut evaluator = Evaluator::new(&tape, Float::<1>);
+            evaluator.run(&[]);
+            let angle = count as f64 * std::f64::consts::PI / 12.0;
+            let found: Vec<f64> = evaluator.outputs().map(|value| value[0]).collect();
+            assert!((found[0] - angle.cos()).abs() < 1e-13, "cos {count}π/12");
+            assert!((found[1] - angle.sin()).abs() < 1e-13, "sin {count}π/12");
+        }
+    }
+
+    #[test]
+    fn sums_with_broken_parts_of_a_quarter_turn_are_written_out() {
+        let one = || Expr::rational(&Rational::from(1));
+        let angle = |x: Expr, above, below| {
+            x + one().apply(UnaryFunction::Atan) * Expr::rational(&Rational::new(above, below))
+        };
+        // x + π/3, and x + π/2, which has no broken part.
+        for (above, below, is_broken) in [(4, 3, true), (2, 1, false), (1, 1, true), (1, 7, false)]
+        {
+            let (graph, value) = record(1, |x| angle(x[0], above, below).apply(UnaryFunction::Cos))
+                .expect("records");
+            assert_eq!(angles(&graph, &[value]).len(), usize::from(is_broken), "{above}/{below}");
+            let (written, values) = without_arctangents(&graph, &[value]).expect("records");
+            let of = |graph: &Graph, value: Expr| {
+                let tape = Tape::new(graph, &[value]);
+                let mut evaluator = Evaluator::new(&tape, Float::<1>);
+                evaluator.run(&[[0.7]]);
+                evaluator.output(0)[0]
+            };
+            let (ours, theirs) = (of(&graph, value), of(&written, values[0]));
+            assert!((ours - theirs).abs() < 1e-14, "{above}/{below}: {ours} {theirs}");
+        }
     }
 }

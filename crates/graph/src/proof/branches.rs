@@ -13,12 +13,16 @@ use super::rng::{ProofRng, ProofStream};
 use super::trial::{TRIAL_LANES, TrialResult, points};
 use super::{Group, Prover, QuestionData, buckets};
 
-/// Number of blocks of points at which values are compared.
-const BLOCKS: usize = 16;
+/// Number of points at which values have to be compared: those of other branches agree at one of them with a chance
+/// of a half.
+const LEAST_COMPARED: usize = 100;
+/// Largest number of blocks of points that are drawn for that: a root has a value at half of them.
+const MOST_BLOCKS: usize = 1 << 12;
 
 impl Prover<'_> {
-    /// Whether the values modulo primes agree, at random points, with those that some choice of
-    /// signs of independent roots gives at all real inputs of the extents.
+    /// Whether the values modulo primes agree with those that some choice of signs of independent roots gives at all
+    /// real inputs of the extents: they are the same by their form, or agree at random points. `false` if too few of
+    /// these have values.
     pub fn is_true_to_branches(&self, graph: &Graph, outputs: &[Expr]) -> Result<bool, Fault> {
         let digest = SeedDigest::of(self.seed, graph, &[outputs.to_vec()]);
         let asked = QuestionData { graph, sources: self.sources_of(graph), digest };
@@ -39,7 +43,7 @@ impl Prover<'_> {
             if !is_settled || cell.signs().next().is_some() {
                 return Ok(false);
             }
-            let (there, made) = record(graph.inputs(), |inputs| {
+            let (there, (naive, made)) = record(graph.inputs(), |inputs| {
                 let inputs = with_signs(inputs, cell.fixed.iter().copied());
                 let own = cell.graph.reached(cell.values.iter().copied());
                 let values = cell.graph.repeated(&own, &inputs);
@@ -50,23 +54,42 @@ impl Prover<'_> {
                 let all = graph.replay(&reached, &inputs, |place, _, _| {
                     special.iter().find(|(own, _)| *own == place).and_then(|(_, value)| *value)
                 });
-                outputs.iter().map(|output| all[graph.place(*output)]).collect::<Option<Vec<_>>>()
+                let naive = graph.repeated(&reached, &inputs);
+                let of = |all: Vec<Option<Expr>>| {
+                    outputs
+                        .iter()
+                        .map(|output| all[graph.place(*output)])
+                        .collect::<Option<Vec<_>>>()
+                };
+                (of(naive), of(all))
             })?;
-            let Some(made) = made else { return Ok(false) };
+            let (Some(naive), Some(made)) = (naive, made) else { return Ok(false) };
+            let (naive, made): (Vec<Expr>, Vec<Expr>) =
+                naive.into_iter().zip(made).filter(|(naive, made)| naive != made).unzip();
             let domain = Prime::new(moduli);
-            let tapes = [Tape::new(graph, outputs), Tape::new(&there, &made)];
+            let tapes = [Tape::new(&there, &naive), Tape::new(&there, &made)];
             let mut evaluators = tapes.each_ref().map(|tape| Evaluator::new(tape, domain.clone()));
-            for _ in 0..BLOCKS {
+            let mut compared = vec![0; made.len()];
+            for _ in 0..MOST_BLOCKS {
+                if compared.iter().all(|count| *count >= LEAST_COMPARED) {
+                    break;
+                }
                 let point = points(&moduli, &asked.sources, &cell.fixed, &mut rng);
                 let [ours, theirs] = evaluators.each_mut().map(|evaluator| {
                     evaluator.run(&point);
                     evaluator.outputs().copied().collect::<Vec<_>>()
                 });
-                let lanes = ours.iter().flatten().zip(theirs.iter().flatten());
-                let differs = |(a, b): (&u64, &u64)| *a != UNDEFINED && *b != UNDEFINED && a != b;
-                if lanes.into_iter().any(differs) {
-                    return Ok(false);
+                for (count, (ours, theirs)) in compared.iter_mut().zip(ours.iter().zip(&theirs)) {
+                    let lanes = ours.iter().zip(theirs);
+                    let mut both = lanes.filter(|(a, b)| **a != UNDEFINED && **b != UNDEFINED);
+                    if both.clone().any(|(a, b)| a != b) {
+                        return Ok(false);
+                    }
+                    *count += both.by_ref().count();
                 }
+            }
+            if compared.iter().any(|count| *count < LEAST_COMPARED) {
+                return Ok(false);
             }
         }
         Ok(true)

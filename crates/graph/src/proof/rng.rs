@@ -38,11 +38,13 @@ pub enum ProofStream {
     Inverses = 11,
     /// Points and polynomials for the factors of polynomials.
     Divisors = 12,
+    /// Directions to the neighbours of a state.
+    Neighbours = 13,
 }
 
 impl ProofStream {
     /// Number of the last stream; those of other purposes have higher ones.
-    pub const LAST: u64 = Self::Divisors as u64;
+    pub const LAST: u64 = Self::Neighbours as u64;
 }
 
 /// Random numbers for tests in fields, disjoint from all streams of states.

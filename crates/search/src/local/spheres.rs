@@ -1,6 +1,7 @@
 //! Unit vectors among the positions of a Lagrangian system, by stereographic projection.
 
 use num_dual::Dual;
+use num_traits::{One, Zero};
 
 use super::mechanical::constraints;
 use crate::SearchError;
@@ -104,22 +105,30 @@ fn projected<T: Scalar>(u: T, v: T) -> [T; 3] {
     [two * u * scale, two * v * scale, (one - u * u - v * v) * scale]
 }
 
-/// Whether an equation contains a vector alone, holds for unit vectors, and has a slope there.
+/// Whether an equation is that of a unit vector and nothing else: E(γ) = c ((γ,γ) − 1) or c (|γ| − 1) for all γ, with
+/// a number c that is not 0, and a slope at unit vectors. ((γ,γ) − 1)((γ,γ) − 4) holds for other vectors, too.
 fn is_sphere(model: &Model, equation: usize, vector: usize) -> Result<bool, SearchError> {
     let parameters = model.free_components();
     let (graph, values) = record(parameters + model.dimension(), |inputs| {
         let (given, state) = inputs.split_at(parameters);
         let given: Vec<Dual<Expr>> = given.iter().map(|p| Dual::from_re(*p)).collect();
-        let mut state = state.to_vec();
-        let unit = projected(state[vector], state[vector + 1]);
-        state[vector..vector + 3].copy_from_slice(&unit);
-        let mut state: Vec<Dual<Expr>> = state.iter().map(|x| Dual::from_re(*x)).collect();
-        state[vector] = state[vector].derivative();
-        let value = constraints(model, &given, &state, &[equation]).remove(0);
-        [value.re, value.eps]
+        let at = |own: [Expr; 3]| {
+            let mut state = state.to_vec();
+            state[vector..vector + 3].copy_from_slice(&own);
+            let mut state: Vec<Dual<Expr>> = state.iter().map(|x| Dual::from_re(*x)).collect();
+            state[vector] = state[vector].derivative();
+            constraints(model, &given, &state, &[equation]).remove(0)
+        };
+        let free = [0, 1, 2].map(|k| state[vector + k]);
+        let (unit, any) = (at(projected(free[0], free[1])), at(free).re);
+        let centre = at([Expr::zero(); 3]).re;
+        let square = free.iter().fold(Expr::zero(), |sum, x| sum + *x * *x);
+        let by_square = any + centre * (square - Expr::one());
+        let by_length = (any - centre) * (any - centre) - centre * centre * square;
+        [unit.re, unit.eps, by_square, by_length]
     })?;
-    let coordinates = [parameters + vector, parameters + vector + 1];
-    let is_own = |value: &Expr| graph.inputs_of(*value).iter().all(|own| coordinates.contains(own));
+    let components: Vec<usize> = (0..3).map(|k| parameters + vector + k).collect();
+    let is_own = |value: &Expr| graph.inputs_of(*value).iter().all(|own| components.contains(own));
     if !values.iter().all(is_own) {
         return Ok(false);
     }
@@ -131,11 +140,18 @@ fn is_sphere(model: &Model, equation: usize, vector: usize) -> Result<bool, Sear
         let point: Vec<[u64; POINTS]> =
             (0..graph.inputs()).map(|_| std::array::from_fn(|_| rng.element(&modulus))).collect();
         evaluator.run(&point);
-        let [value, slope] = [0, 1].map(|output| *evaluator.output(output));
-        let seen = (0..POINTS).filter(|k| value[*k] != UNDEFINED && slope[*k] != UNDEFINED);
-        let seen: Vec<usize> = seen.collect();
+        let [value, slope, by_square, by_length] = [0, 1, 2, 3].map(|k| *evaluator.output(k));
+        let is_seen = |k: &usize| value[*k] != UNDEFINED && slope[*k] != UNDEFINED;
+        let seen: Vec<usize> = (0..POINTS).filter(is_seen).collect();
+        let is_zero = |all: &[u64; POINTS]| {
+            let mut known = seen.iter().filter(|k| all[**k] != UNDEFINED).peekable();
+            known.peek().is_some() && known.all(|k| all[*k] == 0)
+        };
         if !seen.is_empty() {
-            return Ok(seen.iter().all(|k| value[*k] == 0) && seen.iter().any(|k| slope[*k] != 0));
+            let has_slope = seen.iter().any(|k| slope[*k] != 0);
+            return Ok(is_zero(&value)
+                && has_slope
+                && (is_zero(&by_square) || is_zero(&by_length)));
         }
     }
     Ok(false)

@@ -10,16 +10,16 @@ use crate::number::rational::Rational;
 use super::Extent;
 
 impl Extent {
-    /// Applies an increasing function that is defined above `least`, and exact at `at`.
-    fn rising(self, least: f64, at: f64, f: impl Fn(f64) -> f64) -> Self {
+    /// Applies an increasing function that is defined above `least`, and exact at `at`, if anywhere.
+    fn rising(self, least: f64, at: Option<f64>, f: impl Fn(f64) -> f64) -> Self {
         if self.high < least {
             return Self::EMPTY;
         }
         let [low, high] = [self.low.max(least), self.high];
         let wide = Self::twice_outward(f(low), f(high));
         Self {
-            low: if low == at { f(at) } else { wide.low },
-            high: if high == at { f(at) } else { wide.high },
+            low: if Some(low) == at { f(low) } else { wide.low },
+            high: if Some(high) == at { f(high) } else { wide.high },
         }
     }
 
@@ -35,12 +35,12 @@ impl Extent {
             UnaryFunction::Neg => self.negated(),
             UnaryFunction::Abs => self.modulus(),
             UnaryFunction::Recip => self.reciprocal(),
-            UnaryFunction::Sqrt => self.rising(0.0, 0.0, f64::sqrt).within(true),
-            UnaryFunction::Exp => self.rising(f64::NEG_INFINITY, 0.0, libm::exp).within(true),
-            UnaryFunction::Ln => self.rising(0.0, 1.0, libm::log),
+            UnaryFunction::Sqrt => self.rising(0.0, None, f64::sqrt).within(true),
+            UnaryFunction::Exp => self.rising(f64::NEG_INFINITY, Some(0.0), libm::exp).within(true),
+            UnaryFunction::Ln => self.rising(0.0, Some(1.0), libm::log),
             UnaryFunction::Sin => self.sine(),
             UnaryFunction::Cos => self.plus(Self::outward(FRAC_PI_2, FRAC_PI_2)).sine(),
-            UnaryFunction::Atan => self.rising(f64::NEG_INFINITY, 0.0, libm::atan),
+            UnaryFunction::Atan => self.rising(f64::NEG_INFINITY, Some(0.0), libm::atan),
         }
     }
 
