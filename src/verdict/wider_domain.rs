@@ -10,6 +10,7 @@
 
 use std::ops::Range;
 
+use super::cell_rank::{CellRank, RankQuestion};
 use super::claim_state::{BlockResult, ClaimState};
 use super::conjugates::is_one_function;
 use super::evidence::{Method, Proof, Verdict};
@@ -179,6 +180,20 @@ impl Judging<'_> {
             _ => false,
         };
         for condition in own.item.conditions.iter().filter(is_asked) {
+            // A rank without which a claim says less is asked no further than for a cell on which it drops.
+            if let (Need::Rank { rows, rank }, false) = (&condition.need, condition.is_essential) {
+                let remark = own.status.evidence.remark.as_deref();
+                let is_known = remark.is_some_and(|own| own.contains(&condition.otherwise));
+                let question = (&rows[..], *rank);
+                let asked = RankQuestion::Drops;
+                if !is_known
+                    && self.rank_on_cells(sampler, question, &own.item.requirement, asked)?
+                        == CellRank::Drops
+                {
+                    return Ok(false);
+                }
+                continue;
+            }
             if let Some(failure) = self.failure(sampler, own.item, condition)? {
                 let remark = own.status.evidence.remark.as_deref();
                 if condition.is_essential || !remark.is_some_and(|own| own.contains(&failure.words))
