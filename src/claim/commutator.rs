@@ -88,7 +88,8 @@ impl Statement for Commutator {
     fn conditions(&self, jet: &DualPoint<'_, Expr>, _: &[bool]) -> Vec<Condition> {
         let of_one =
             |field: &Components| Condition::nonzero(field.at(&jet.phase), "one of the fields is 0");
-        vec![of_one(&self.of), of_one(&self.with)]
+        let both = [self.of.at(&jet.phase), self.with.at(&jet.phase)].concat();
+        vec![of_one(&self.of), of_one(&self.with), Condition::continuous(both, "one of the fields")]
     }
 
     /// Computes the defects of each ∫ off the level too, which the fields may leave.

@@ -73,8 +73,13 @@ impl Statement for NoDensityNear {
         self.0.written(&jet.phase)
     }
 
+    /// The field has to be continuously differentiable near the point, in all directions.
     fn presence(&self, jet: &DualPoint<'_, Expr>) -> Vec<Expr> {
-        inside(system_at_point(&jet.phase.with(&[], &self.0.at(&jet.phase))))
+        let at = self.jet(jet);
+        let mut values = system_at_point(&at.phase);
+        let slopes = at.derivative().concat().into_iter();
+        values.extend(slopes.filter(|slope| !slope.is_always_defined()));
+        inside(values)
     }
 
     fn context(&self, jet: &DualPoint<'_, Expr>, kept: &[bool]) -> ResidualContext {

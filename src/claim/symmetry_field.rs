@@ -39,7 +39,15 @@ impl Statement for SymmetryField {
         let own = self.components.at(&jet.phase);
         let across = rejection(&own, &[jet.phase.field().to_vec()]);
         let otherwise = "u is 0 or a multiple of the field, as every system has";
-        vec![Condition::nonzero(across, otherwise), Condition::continuous(own, "u")]
+        vec![
+            Condition::nonzero(across, otherwise),
+            Condition::continuous(own, "u"),
+            Condition::continuous(jet.phase.field().to_vec(), "the field"),
+        ]
+    }
+
+    fn particulars(&self) -> Option<String> {
+        self.weight.as_ref().map(|own| format!("weight {}", own.text().trim()))
     }
 
     fn residual<T: Scalar>(&self, jet: &DualPoint<'_, T>, kept: &[bool]) -> Vec<T> {

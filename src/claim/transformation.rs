@@ -94,6 +94,10 @@ impl Statement for Symmetry {
         self.map.formulas()
     }
 
+    fn particulars(&self) -> Option<String> {
+        self.time.as_ref().map(|own| format!("t → λ t, λ = {}", own.text().trim()))
+    }
+
     fn presence(&self, jet: &DualPoint<'_, Expr>) -> Vec<Expr> {
         system_at(&self.map.point(&jet.phase))
     }

@@ -10,9 +10,9 @@ use super::witness::briefly;
 use crate::claim::LevelSubset;
 use crate::graph::{Evaluator, Expr, Fault, Graph, Step, Tape};
 use crate::mechanics::{Draw, NumberLine, combinations};
-use crate::number::UnaryFunction;
 use crate::number::float::Float;
 use crate::number::rational::Rational;
+use crate::number::{BinaryOperation, UnaryFunction};
 use crate::proof::is_seen_nowhere_zero;
 
 /// Number of states from which a pole is sought, side by side.
@@ -134,20 +134,22 @@ struct Vanishing {
     divisors: Vec<Expr>,
 }
 
-/// Values by which others are divided, or whose powers have negative exponents; of roots and powers
-/// what they are taken of, which vanishes with them and has slopes there.
+/// Values by which others are divided, or whose powers have negative exponents: of products the factors, of roots,
+/// moduli and powers what they are taken of, which vanishes with them and has slopes there.
 fn divisors(graph: &Graph, values: &[Expr]) -> Vec<Expr> {
     let reached = graph.reached(values.iter().copied());
+    let poles = graph.needs(&reached).filter(|(_, need)| need.is_pole);
+    let mut open: Vec<usize> = poles.map(|(place, _)| place).collect();
+    open.reverse();
     let mut found: Vec<usize> = Vec::new();
-    for (mut place, need) in graph.needs(&reached) {
-        while let Step::Unary(UnaryFunction::Sqrt | UnaryFunction::Abs, a) | Step::Power(a, _) =
-            graph.step(place)
-        {
-            place = a;
-        }
-        let is_number = graph.constant_value(graph.at(place)).is_some();
-        if need.is_pole && !is_number && !found.contains(&place) {
-            found.push(place);
+    while let Some(place) = open.pop() {
+        match graph.step(place) {
+            Step::Unary(UnaryFunction::Sqrt | UnaryFunction::Abs | UnaryFunction::Neg, a)
+            | Step::Power(a, _) => open.push(a),
+            Step::Binary(BinaryOperation::Mul, a, b) => open.extend([b, a]),
+            Step::Constant(_) => {}
+            _ if found.contains(&place) => {}
+            _ => found.push(place),
         }
     }
     found.into_iter().map(|place| graph.at(place)).collect()
