@@ -1,5 +1,6 @@
 //! Tests of the verifier through its public interface, one module a subject.
 
+mod angles;
 mod arbitrary;
 mod assumptions;
 mod bodies;

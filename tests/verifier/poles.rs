@@ -102,3 +102,14 @@ fn poles_for_one_of_several_exponents_are_found() {
     assert!(is_infinite("b = 'one of 0, 1, 3'", turn, density), "for b = 3");
     assert!(!is_infinite("b = 'one of 0, 1'", turn, density), "1/|x| can be integrated");
 }
+
+#[test]
+fn poles_of_each_factor_are_sought() {
+    // A sink at (1, 0): the density is infinite on x = 1, however its product is written.
+    let all =
+        ["1/(y*|x − 1|)", "1/|y*(x − 1)|", "1/(y*√((x − 1)²))", "1/y/|x − 1|"].map(String::from);
+    for claim in densities(["-2..2", "0.5..2"], ["1 − x", "−y"], &all) {
+        assert_eq!(claim.verdict, Verdict::Proved, "{}", claim.name);
+        assert_eq!(claim.evidence.flaws, [Flaw::Infinite], "{}", claim.name);
+    }
+}

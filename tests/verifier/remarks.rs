@@ -32,3 +32,22 @@ fn slips_that_are_no_mistakes_are_remarked() {
     let all = remarks(&format!("[parameters]\nk = 1\n{FLOW}"));
     assert!(all.len() == 1 && all[0].contains("there are no claims"), "{all:?}");
 }
+
+#[test]
+fn a_field_that_jumps_is_named_under_its_symmetries() {
+    use liouville::case::Case;
+    use liouville::verdict::{Flaw, Options, Verdict, judge};
+    let found = |rate: &str| {
+        let text = format!(
+            "title = 'x'\n[state]\nx = '-1..1'\nv = '-1..1'\n[field]\n\"x'\" = 'v'\n\"v'\" = '{rate}'\n[[claim]]\n\
+             symmetry-field = {{ x = '1' }}\n"
+        );
+        let case = Case::parse(&text, &[]).expect("a case");
+        judge(&case, &Options::default()).expect("a report").claims.remove(0)
+    };
+    let jumping = found("-x/|x|");
+    assert_eq!(jumping.verdict, Verdict::Proved);
+    assert_eq!(jumping.evidence.flaws, [Flaw::Jumps]);
+    let smooth = found("-v");
+    assert_eq!((smooth.verdict, smooth.evidence.flaws.len()), (Verdict::Proved, 0));
+}

@@ -56,3 +56,16 @@ fn constraints_on_a_body_are_counted_on_the_sphere() {
         assert_eq!(only(&other).verdict, expected, "{typed}");
     }
 }
+
+#[test]
+fn an_equation_with_other_zeros_is_no_unit_vector() {
+    // The chart makes the sphere of radius 2, on which the body is free.
+    let two = "title = 't'\nsystem = 'nonholonomic'\n[parameters]\ne = 'vector(1..2)'\nI = 'diag(1..2, 3..4, 5..6)'\n\
+        [state]\nw = 'vector(-2..2)'\ng = 'vector(-3..3)'\n[field]\n\"g'\" = 'g × w'\n[lagrangian]\n\
+        kinetic = '(w,I*w)/2'\nquasi-velocities = ['w']\nalgebra = 'so(3)'\npotential = '(e,g)*((g,g) - 4)'\n[level]\n\
+        equations = ['((g,g) - 1)*((g,g) - 4) = 0']\n[level.chart]\n\
+        inputs = { u = '-2..2', v = '-2..2', z = 'vector(-1..1)' }\n\
+        g = '2*vec(2*u, 2*v, 1 - u^2 - v^2)/(1 + u^2 + v^2)'\nw = 'z'\n";
+    let text = two.to_string() + AREA + &absent(2);
+    assert_ne!(only(&text).verdict, Verdict::Proved, "(I*w,I*w) is an integral there");
+}
