@@ -7,6 +7,7 @@
 //!
 //! docs/closed-orbits.md has the theorem, and its conditions on the numbers computed here.
 
+mod alone;
 mod band;
 mod coefficients;
 mod course;
@@ -31,6 +32,7 @@ mod tail;
 #[cfg(test)]
 mod tests;
 
+pub use alone::is_alone;
 pub use enclosure::Enclosure;
 pub use forward::{Reached, follow};
 pub use horseshoe::{HorseshoeTrace, Margin, ProvedHorseshoe, prove as prove_horseshoe};
