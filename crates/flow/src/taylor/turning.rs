@@ -139,7 +139,7 @@ impl<T: SeriesNumber> Stepper<T> {
             self.step_size(lane).copysign((self.lanes[lane].until - self.lanes[lane].time).hi);
         match argument[0].leading() {
             first if first.is_nan() || length.is_nan() => true,
-            _ if self.lanes[lane].came_to.is_some() => {
+            _ if self.lanes[lane].steps > 0 => {
                 let length = known_part(&argument, T::One::float(length), self.kappa);
                 goes_positive(&argument, error, length) == is_positive
             }
@@ -163,9 +163,13 @@ impl<T: SeriesNumber> Stepper<T> {
                     continue;
                 }
                 lane.step = step;
-                let mut sides = Sides::on(self.series.is_positive(sign, place));
+                let is_positive = self.series.is_positive(sign, place);
+                let mut sides = Sides::on(is_positive);
                 let crossing = |event: Event<T::One>| match event {
-                    Event::Crossing { after, .. } => Some(after),
+                    Event::Crossing { after, .. } => {
+                        let rest = [after, step - after];
+                        (behind(&argument, error(), rest) != Some(is_positive)).then_some(after)
+                    }
                     Event::Tangency { .. } => None,
                 };
                 let after = sides.events(&argument, step, error).into_iter().find_map(crossing);
@@ -201,11 +205,17 @@ impl<T: SeriesNumber> Stepper<T> {
 /// Sign of a function behind a place at which another one is 0, as well as that place is known: the
 /// function may have a zero there too, of any order, and the rounding of the place decides its first terms.
 fn goes_positive<T: SeriesNumber>(polynomial: &[T], error: f64, length: T) -> bool {
-    let limit = error.max(PLACES * T::EPSILON * size(polynomial, length));
+    behind(polynomial, error, [T::ZERO, length])
+        .unwrap_or_else(|| starts_positive(polynomial, error, length))
+}
+
+/// Sign that a function has first, by more than rounding, from a place on, over a length.
+fn behind<T: SeriesNumber>(polynomial: &[T], error: f64, [from, length]: [T; 2]) -> Option<bool> {
+    let limit = error.max(PLACES * T::EPSILON * size(polynomial, from + length));
     let at = |halves: i32| {
         let after = length * T::float(libm::ldexp(1.0, -halves));
-        value(polynomial, after).0.leading()
+        value(polynomial, from + after).0.leading()
     };
-    let first = (0..=MOST_HALVES).rev().map(at).find(|value| value.abs() > limit);
-    first.map_or_else(|| starts_positive(polynomial, error, length), |value| value > 0.0)
+    let values = (0..=MOST_HALVES).rev().map(at);
+    values.into_iter().find(|value| value.abs() > limit).map(|value| value > 0.0)
 }

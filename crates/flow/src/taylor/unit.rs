@@ -97,7 +97,7 @@ impl<T: SeriesNumber> Stepper<T> {
                 let scale = size(&mut state.clone()) / size(&mut rates.into_iter());
                 let shorter = self.lanes[lane].unit * libm::ldexp(1.0, -GRAIN);
                 // A state of 0 has no scale of time.
-                let own = if scale > 0.0 { unit(scale) } else { shorter };
+                let own = if scale > 0.0 && scale.is_finite() { unit(scale) } else { shorter };
                 self.lanes[lane].unit = shorter.min(own);
                 any = true;
             }

@@ -2,7 +2,7 @@
 
 use super::course::Course;
 use super::guess::Nodes;
-use super::{KAPPAS, MOST_UNKNOWNS, Obstacle, OrbitSearch, Request, prepared, residual};
+use super::{KAPPAS, MOST_UNKNOWNS, Obstacle, OrbitSearch, Request, prepared};
 
 /// Sides of the boxes of states against those that hold the start, or what the motion covers in the
 /// doubt about the period: some have room for both.
@@ -26,8 +26,7 @@ pub fn is_alone(request: &Request<'_>, unit: f64) -> Result<bool, Obstacle> {
             found => found?,
         };
         let nodes = &search.nodes;
-        let rest = residual(&shooting, nodes, &search.frames)?;
-        let offsets = search.inverse.bounds(&rest);
+        let offsets = search.offsets()?;
         let gaps = nodes.states[0].iter().zip(&state).map(|(x, y)| (x - y).abs());
         let gap = gaps.fold(0.0, f64::max);
         let late = (nodes.period - request.period).abs() + unit;
