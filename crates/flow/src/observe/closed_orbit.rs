@@ -68,17 +68,17 @@ pub(super) fn far(
     (stated, period): (&Stated, Enclosure),
 ) -> Option<String> {
     let shift = (period.mid - stated.value).abs() / stated.value;
-    if moved.is_nan() || moved > NEAR {
+    if shift.is_nan() || shift > NEAR {
         return Some(format!(
+            "the {what} that is found has period {:.10}, which is not within 1 % of {}",
+            period.mid, stated.text
+        ));
+    }
+    (moved.is_nan() || moved > NEAR).then(|| {
+        format!(
             "the {what} that is found has period {:.10}, and lies at a distance of {moved:.1e} of the \
              state: start nearer to it",
             period.mid
-        ));
-    }
-    (shift.is_nan() || shift > NEAR).then(|| {
-        format!(
-            "the {what} that is found has period {:.10}, which is not within 1 % of {}",
-            period.mid, stated.text
         )
     })
 }

@@ -4,7 +4,7 @@
 //! begins, and behind a step that ended so, the signs have to agree with where the arguments go: if
 //! neither sign of one does, the field pushes towards the zero from both sides, and the motion slides.
 
-use crate::taylor::event::{Event, Sides, size, starts_positive, value};
+use crate::taylor::event::{Event, Sides, size, slope, starts_positive, value};
 use crate::taylor::number::SeriesNumber;
 use crate::taylor::pace::Lane;
 use crate::taylor::plain::FAINT;
@@ -135,8 +135,9 @@ impl<T: SeriesNumber> Stepper<T> {
             return true;
         }
         let error = self.series.value_error(row, lane, &self.peaks).max(FAINT);
-        let length =
-            self.step_size(lane).copysign((self.lanes[lane].until - self.lanes[lane].time).hi);
+        // A field that is 0 on one side has steps without an end.
+        let left = (self.lanes[lane].until - self.lanes[lane].time).hi / self.lanes[lane].unit;
+        let length = self.step_size(lane).min(left.abs()).copysign(left);
         match argument[0].leading() {
             first if first.is_nan() || length.is_nan() => true,
             _ if self.lanes[lane].steps > 0 => {
@@ -168,7 +169,11 @@ impl<T: SeriesNumber> Stepper<T> {
                 let crossing = |event: Event<T::One>| match event {
                     Event::Crossing { after, .. } => {
                         let rest = [after, step - after];
-                        (behind(&argument, error(), rest) != Some(is_positive)).then_some(after)
+                        let turns = match behind(&argument, error(), rest) {
+                            Some(side) => side != is_positive,
+                            None => is_simple(&argument, after, step),
+                        };
+                        turns.then_some(after)
                     }
                     Event::Tangency { .. } => None,
                 };
@@ -207,6 +212,13 @@ impl<T: SeriesNumber> Stepper<T> {
 fn goes_positive<T: SeriesNumber>(polynomial: &[T], error: f64, length: T) -> bool {
     behind(polynomial, error, [T::ZERO, length])
         .unwrap_or_else(|| starts_positive(polynomial, error, length))
+}
+
+/// Whether a root is simple: where rounding splits a double one, the slope is some √ε of its terms.
+fn is_simple<T: SeriesNumber>(polynomial: &[T], root: T, length: T) -> bool {
+    let slopes = slope(polynomial);
+    let least = PLACES * T::EPSILON.sqrt() * size(&slopes, length);
+    value(&slopes, root).0.leading().abs() > least
 }
 
 /// Sign that a function has first, by more than rounding, from a place on, over a length.
