@@ -42,7 +42,8 @@ impl FlowError {
             FlowError::NoSection => "add [section] with g0 and energy",
             FlowError::Arbitrary => "give a shape and a potential by formulas",
             FlowError::Discrete => {
-                "`motion orbit --iterates N` follows the iterates of a map; give a case with a field"
+                "`motion orbit --iterates N` follows the iterates of a map, and `motion exponents` \
+                 measures how neighbours separate; for the rest give a case with a field"
             }
             FlowError::OffSphere { .. } => "write a start as l,z with |z| < 1",
             FlowError::BelowPotential { .. } => "choose a higher energy, or another start",
@@ -83,6 +84,10 @@ impl FlowError {
                 "where a further integral is kept, closed orbits come in families, and have no \
                  multipliers: claim it (integral = \"…\", and of a field its energy too), and if it is \
                  proved its value is held"
+            }
+            FlowError::Cyclic { .. } => {
+                "leave these coordinates out of the system, with the momenta that belong to them as \
+                 parameters: closed orbits of what is left are those up to a shift"
             }
             FlowError::NoReversor { .. } => {
                 "name another of L=0, l=0, l=π/2, or another section (--g0); `liouville report` lists the reversors of a body"

@@ -139,7 +139,7 @@ pub enum FlowError {
     #[error("the shape or the potential is arbitrary, so that no one motion is its own")]
     Arbitrary,
     /// A system that has no motions in time.
-    #[error("the case is a map; only flows have motions to follow")]
+    #[error("the case is a map, and this is for motions in time")]
     Discrete,
     /// The point does not lie on the sphere.
     #[error("(l, L/G) = ({l}, {z}) is not a point of the section: |L/G| has to be below 1")]
@@ -255,6 +255,17 @@ pub enum FlowError {
         "the equations of a closed orbit near t = {0} are degenerate: it is one of a family, such as those of a further integral, or has another multiplier 1, or there is none"
     )]
     Degenerate(#[serde(with = "crate::record")] f64),
+    /// The equations of a closed orbit are singular because of coordinates that occur nowhere.
+    #[error(
+        "the equations of a closed orbit near t = {time} are degenerate: no rate depends on {names}, so that an orbit comes with all those shifted along, or closes only up to a shift"
+    )]
+    Cyclic {
+        /// Period that was tried.
+        #[serde(with = "crate::record")]
+        time: f64,
+        /// Names of the coordinates.
+        names: String,
+    },
     /// A line is not that of a reversor.
     #[error(
         "{line} is no line of a reversor of this section: mirrored about it, the image of (l, L/G) = ({l:.4}, {z:.4}) comes back {by:.1e} away"

@@ -1,6 +1,6 @@
 //! Basins of attraction: the set to which each motion of a grid of starts keeps at late times.
 
-use crate::chaos::attractors::{MOST_SETS, Tail};
+use crate::chaos::attractors::{Change, MOST_SETS, Tail};
 use crate::chaos::late::{Late, LateMotions, LateSamples};
 use crate::chaos::shadow::{ShadowStart, Shadowed};
 use crate::error::FlowError;
@@ -186,6 +186,8 @@ struct First {
     tail: Tail,
     rows: Vec<Vec<f64>>,
     end: Vec<DoubleDouble>,
+    /// Change of its size up to the end, as far as it is known.
+    change: Change,
 }
 
 /// Ends found so far.
@@ -232,7 +234,7 @@ impl Found {
         match self.sets.iter().position(|known| known.tail.is_with(&tail)) {
             Some(place) => Destiny::Set(place),
             None if self.sets.len() < MOST_SETS => {
-                self.sets.push(First { tail, rows, end });
+                self.sets.push(First { tail, rows, end, change: Change::Steady });
                 Destiny::Set(self.sets.len() - 1)
             }
             None => Destiny::Further,
@@ -252,10 +254,10 @@ impl Found {
         let firsts = std::mem::take(&mut self.sets);
         let mut home = Vec::new();
         for (first, late) in firsts.iter().zip(later) {
-            let after = late.map(|LateSamples { rows, ways, end, .. }| First {
-                tail: Tail::new(&rows, &ways, &self.widths),
-                rows,
-                end,
+            let after = late.map(|LateSamples { rows, ways, end, .. }| {
+                let tail = Tail::new(&rows, &ways, &self.widths);
+                let change = first.tail.change(&tail);
+                First { tail, rows, end, change }
             });
             let stays = |after: &First| after.tail.is_settled() && after.tail.is_with(&first.tail);
             let Some(after) = after.ok().filter(stays) else {
@@ -280,15 +282,30 @@ impl Found {
         self.sets.iter().map(begin).collect()
     }
 
-    /// Brings the sets into the order of their sizes.
-    fn told(self, exponents: Vec<Result<Exponents, FlowError>>) -> Basins {
+    /// Brings the sets into the order of their sizes. One whose size goes on changing, and that does not
+    /// tend to a point, is none.
+    fn told(mut self, exponents: Vec<Result<Exponents, FlowError>>) -> Basins {
+        let is_point = |first: &First, exponents: &Result<Exponents, FlowError>| {
+            first.tail.is_point()
+                || first.tail.rests()
+                || first.change == Change::Vanishes
+                || first.tail.closes_in() && exponents.as_ref().is_ok_and(contracts)
+        };
+        let pairs = self.sets.iter().zip(&exponents);
+        let are_points: Vec<bool> = pairs.map(|(first, own)| is_point(first, own)).collect();
+        let goes = |index: usize| self.sets[index].change == Change::Goes && !are_points[index];
+        for end in &mut self.ends {
+            if matches!(*end, Destiny::Set(index) if goes(index)) {
+                *end = Destiny::Unsettled;
+            }
+        }
         let mut counts = vec![0; self.sets.len()];
         for end in &self.ends {
             if let Destiny::Set(index) = end {
                 counts[*index] += 1;
             }
         }
-        let mut order: Vec<usize> = (0..counts.len()).collect();
+        let mut order: Vec<usize> = (0..counts.len()).filter(|index| counts[*index] > 0).collect();
         order.sort_by_key(|index| std::cmp::Reverse(counts[*index]));
         let attractor = |index: &usize| {
             let (first, exponents) = (&self.sets[*index], exponents[*index].clone());
@@ -296,9 +313,7 @@ impl Found {
                 count: counts[*index],
                 ranges: ranges(&first.rows),
                 last: first.rows.last().cloned().unwrap_or_default(),
-                is_point: first.tail.is_point()
-                    || first.tail.rests()
-                    || first.tail.closes_in() && exponents.as_ref().is_ok_and(contracts),
+                is_point: are_points[*index],
                 state: first.end.iter().map(|x| x.hi).collect(),
                 exponents,
             }

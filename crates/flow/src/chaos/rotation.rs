@@ -53,14 +53,21 @@ impl RotationNumber {
         let most = (count as u64 / ROUNDS).max(1);
         let resonance = simplest(means[0] - error, means[0] + error, most);
         let resonance = resonance.filter(|(_, q)| error * (*q as f64).powi(2) <= CHANCE);
-        if resonance.is_none() && !order.is_kept(&lifts) {
-            return None;
+        if !order.is_kept(&lifts) && !resonance.is_some_and(|own| order.is_of_islands(own)) {
+            return order.is_seen_aside().then(|| Self::none(&angles));
         }
         let resonance = resonance.map(|(p, q)| (p % q, q));
         // Just below a whole turn is just below 0.
         let whole = resonance.is_some_and(|(p, _)| p == 0);
         let value = if whole { 0.0 } else { turned(means[0]) };
         Some(Self { turns: MeasuredNumber { value, error }, resonance })
+    }
+
+    /// Number of a motion that does not go round the centre.
+    fn none(angles: &[f64]) -> Self {
+        // What it comes and goes is less than a half turn.
+        let error = 0.5 / angles.len() as f64;
+        Self { turns: MeasuredNumber { value: 0.0, error }, resonance: Some((0, 1)) }
     }
 }
 
@@ -99,6 +106,37 @@ impl<'a> Order<'a> {
 
     fn is_kept(&self, lifts: &[f64]) -> bool {
         self.steps(lifts).all(|step| step >= -ROUNDING)
+    }
+
+    /// Whether the angles lie in q arcs, of which each is mapped to the p-th after it.
+    fn is_of_islands(&self, (p, q): (u64, u64)) -> bool {
+        let (p, q) = ((p % q) as usize, q as usize);
+        let class = |place: &usize| place % q;
+        let before = self.places.iter().cycle().skip(self.places.len().saturating_sub(1));
+        let begins = before.zip(&self.places).filter(|(one, next)| class(one) != class(next));
+        let arcs: Vec<usize> = begins.map(|(_, next)| class(next)).collect();
+        if q == 1 {
+            return true;
+        }
+        let mut at = vec![None; q];
+        arcs.iter().enumerate().for_each(|(place, class)| at[*class] = Some(place));
+        arcs.len() == q
+            && (0..q).all(|class| match (at[class], at[(class + 1) % q]) {
+                (Some(from), Some(to)) => (from + p) % q == to,
+                _ => false,
+            })
+    }
+
+    /// Whether all angles lie within less than a half turn, as those of a convex curve do that does not
+    /// enclose the centre.
+    fn is_seen_aside(&self) -> bool {
+        let ends = |pair: &[usize]| self.angles[pair[1]] - self.angles[pair[0]];
+        let inner = self.places.windows(2).map(ends).fold(0.0, f64::max);
+        let round = match (self.places.first(), self.places.last()) {
+            (Some(first), Some(last)) => self.angles[*first] + 1.0 - self.angles[*last],
+            _ => 0.0,
+        };
+        inner.max(round) > 0.5
     }
 }
 
@@ -183,6 +221,24 @@ mod tests {
         assert_eq!(RotationNumber::of(&near).and_then(|own| own.resonance), Some((1, 2)));
         let rest = RotationNumber::of(&[1.25; 100]).expect("a number");
         assert_eq!((rest.resonance, rest.turns.value), (Some((0, 1)), 0.0));
+    }
+
+    #[test]
+    fn curves_aside_of_the_centre_do_not_turn() {
+        // An invariant circle of radius 0.4 about a point at a distance of 1 from the centre
+        for turns in [0.6 + 1e-4, 8.0 / 15.0 + 1e-6, 0.618_033_988_749_894_9, 16.0 / 17.0 + 1e-7] {
+            let at = |k: usize| {
+                let angle = TAU * turns * k as f64;
+                libm::atan2(0.4 * libm::sin(angle), 1.0 + 0.4 * libm::cos(angle))
+            };
+            let angles: Vec<f64> = (0..2000).map(at).collect();
+            let found = RotationNumber::of(&angles).expect("a number");
+            assert_eq!((found.resonance, found.turns.value), (Some((0, 1)), 0.0), "{turns}");
+        }
+        // Islands that follow each other in another order than round the circle have no number.
+        let mixed =
+            |k: usize| TAU * [0.0, 0.2, 0.1, 0.5, 0.7][k % 5] + 0.1 * libm::sin(0.3 * k as f64);
+        assert_eq!(RotationNumber::of(&(0..2000).map(mixed).collect::<Vec<f64>>()), None);
     }
 
     #[test]

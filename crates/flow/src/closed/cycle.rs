@@ -13,6 +13,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use crate::closed::cyclic::explained;
 use crate::closed::multiplier::{self, CycleKind, Multiplier};
 use crate::closed::through::MeasuredNumber;
 use crate::closed::turns::turns;
@@ -83,7 +84,7 @@ pub(crate) fn cycle(
     pins: &Pins,
 ) -> Result<Cycle, FlowError> {
     let mut search = CycleSearch::new(model, start, time, pins)?;
-    search.converge()?;
+    search.converge().map_err(|problem| explained(model, start, problem))?;
     let matrix = search.equations()?.0;
     let residual = search.refine(matrix)?;
     let is_supported = search.is_supported(residual)?;

@@ -3,6 +3,7 @@
 pub(crate) mod area;
 pub(crate) mod continuation;
 pub(crate) mod cycle;
+mod cyclic;
 pub(crate) mod multiplier;
 pub(crate) mod periodic;
 pub(crate) mod returns;

@@ -49,6 +49,8 @@ pub enum Character {
     UnstableRest,
     /// A positive exponent of a motion that goes farther and farther away.
     Escape,
+    /// A positive exponent of a map that takes several states to one.
+    Chaos,
     /// A positive exponent; volume is preserved on average.
     ConservativeChaos,
     /// A positive exponent; the divergence changes sign.
@@ -60,7 +62,7 @@ pub enum Character {
 }
 
 impl Character {
-    /// All classes, in order of distance from regular motion.
+    /// All classes of motions in time, in order of distance from regular motion.
     pub const ALL: [Self; 7] = [
         Character::Regular,
         Character::UnstableRest,
@@ -77,6 +79,7 @@ impl Character {
             Character::Regular => "regular",
             Character::UnstableRest => "unstable rest",
             Character::Escape => "escape",
+            Character::Chaos => "chaos",
             Character::ConservativeChaos => "conservative chaos",
             Character::DissipativeChaos => "dissipative chaos",
             Character::StrangeAttractor => "strange attractor",

@@ -5,7 +5,7 @@ use crate::chaos::spectrum::Spectrum;
 use crate::error::FlowError;
 use crate::halt::Halt;
 use crate::motion::iterates::{IterateError, RecordedMap};
-use crate::motion::lyapunov::{BLOCKS, Exponents, Record, SKIPPED, estimate};
+use crate::motion::lyapunov::{BLOCKS, Character, Exponents, Record, SKIPPED, estimate};
 use crate::motion::orbit::Precision;
 use crate::motion::start::{LevelFunctions, Start, level_basis};
 use crate::taylor::batch::each;
@@ -115,7 +115,12 @@ fn along(
             }
         }
     }
-    let largest = record.exponents();
+    let mut largest = record.exponents();
+    // An orbit that stays, where each step makes volumes larger: images overlap, so the map is not
+    // one-to-one, and the determinant says nothing of the volume of an image.
+    if largest.character == Character::StrangeRepeller {
+        largest.character = Character::Chaos;
+    }
     let of = |place: usize| -> Vec<f64> { blocks.iter().map(|means| means[place]).collect() };
     let mut exponents: Vec<_> = (0..basis.len()).map(|place| estimate(&of(place))).collect();
     exponents.sort_by(|a, b| b.mean.total_cmp(&a.mean));

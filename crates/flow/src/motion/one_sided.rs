@@ -24,6 +24,8 @@ const ROUNDINGS: f64 = 4096.0;
 const DOUBTS: f64 = 64.0;
 /// Number of places behind a root at which a function is looked at.
 const SAMPLES: u32 = 32;
+/// Units in the last place of the time below which a phase lasts no time.
+const PLACES: f64 = 16.0;
 /// Limit on the number of phases, above that of any motion of interest.
 const MAX_PHASES: usize = 100_000;
 
@@ -103,10 +105,15 @@ pub(crate) fn follow<T: SeriesNumber<One = T>>(
         state: start.state.clone(),
         now: DoubleDouble::default(),
         until: time,
+        is_held: false,
     };
     let mut touching = walk.begins_in_contact()?;
     for _ in 0..MAX_PHASES {
+        let begin = walk.now;
         let ended = if touching { walk.touch(watcher)? } else { walk.fly(watcher)? };
+        // A free phase that is over at once is too low to be seen.
+        let lasts = (walk.now - begin).hi > PLACES * T::EPSILON * walk.now.hi.abs();
+        walk.is_held = !touching && !lasts;
         if ended {
             return Ok(OneSidedMotion { end: walk.state, steps: walk.steps, events: walk.events });
         }
@@ -124,6 +131,8 @@ struct Walk<'p, T: SeriesNumber> {
     state: Vec<DoubleDouble>,
     now: DoubleDouble,
     until: DoubleDouble,
+    /// Whether a phase of contact begins while the reaction is negative, and lasts until it falls again.
+    is_held: bool,
 }
 
 impl<T: SeriesNumber<One = T>> Walk<'_, T> {
@@ -213,18 +222,21 @@ impl<T: SeriesNumber<One = T>> Walk<'_, T> {
     /// Follows a phase of contact. Returns whether the motion ends in it.
     fn touch(&mut self, watcher: &mut impl Watcher<T>) -> Result<bool, FlowError> {
         self.contact.start(0, &self.state, self.until - self.now);
+        let mut is_held = self.is_held;
         loop {
-            let mut sides = Sides::on(true);
+            let mut sides = Sides::on(!is_held);
             self.contact.expand();
             self.contact.ends(0);
             self.contact.check(0)?;
             let piece = self.contact.piece(0);
             let polynomial = piece.output(0);
             let doubt = || self.phases.contact.rounding::<T>(0, &self.contact.pairs(0), 0.0);
-            let below = (polynomial[0].leading() < -DOUBTS * doubt()).then_some(T::ZERO);
+            let is_below = !is_held && polynomial[0].leading() < -DOUBTS * doubt();
+            let below = is_below.then_some(T::ZERO);
             let events = sides.events(&polynomial, piece.length(), doubt);
             let begins = below.map(|after| Event::Crossing { after, rising: false });
             for event in begins.into_iter().chain(events) {
+                is_held &= !matches!(event, Event::Crossing { rising: true, .. });
                 let Event::Crossing { after, rising: false } = event else { continue };
                 // A reaction that only touches 0 holds the body.
                 if !is_deep(&polynomial, after, piece.length(), doubt()) {

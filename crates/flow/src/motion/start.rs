@@ -89,6 +89,12 @@ impl Start {
         Self::near(model, parameters, state)
     }
 
+    /// The same parameters with another state.
+    pub fn with_state(&self, state: &[f64]) -> Self {
+        let state = state.iter().map(|x| DoubleDouble::from_f64(*x)).collect();
+        Self { parameters: self.parameters.clone(), state, moved: 0.0 }
+    }
+
     /// Moves a state to the level set along the gradients, by Newton's method.
     pub fn near(
         model: &Model,

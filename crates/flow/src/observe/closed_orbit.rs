@@ -33,15 +33,54 @@ pub fn by(
     proof: impl FnOnce(&Request<'_>) -> Result<ProvedOrbit, Obstacle>,
 ) -> Result<(MotionJudgement, Option<ProvedOrbit>), FlowError> {
     let mut judgement = MotionJudgement::default();
-    let found = match Ground::of(claim.into(), scene, options)? {
-        Ok(ground) => ground.enclosed(proof),
-        Err(reason) => Err(reason),
-    };
+    let found = Ground::of(claim.into(), scene, options)?
+        .and_then(|ground| Ok((ground.enclosed(proof)?, ground)));
     match &found {
-        Ok(found) => weigh(claim, found, &mut judgement),
+        Ok((found, ground)) => {
+            weigh(claim, found, &mut judgement);
+            doubt(ground, (&claim.period, found.period), &mut judgement);
+        }
         Err(reason) => judgement.leave_open(reason.clone()),
     }
-    Ok((judgement, found.ok()))
+    Ok((judgement, found.ok().map(|(found, _)| found)))
+}
+
+/// Leaves a claim open that is wrong of the orbit found, unless that is proved to be the only one about
+/// the start with a period as stated: another may lie next to it.
+pub(super) fn doubt(
+    ground: &Ground<'_>,
+    (stated, period): (&Stated, Enclosure),
+    judgement: &mut MotionJudgement,
+) {
+    if judgement.is_refuted() && !ground.is_alone(stated.unit) {
+        judgement.withdraw(format!(
+            "the closed orbit found from the start has period {:.10}, and is not proved to be the only \
+             one there: start nearer to the one that is claimed",
+            period.mid
+        ));
+    }
+}
+
+/// Reason why an orbit is not the one that is claimed.
+pub(super) fn far(
+    what: &str,
+    moved: f64,
+    (stated, period): (&Stated, Enclosure),
+) -> Option<String> {
+    let shift = (period.mid - stated.value).abs() / stated.value;
+    if shift.is_nan() || shift > NEAR {
+        return Some(format!(
+            "the {what} that is found has period {:.10}, which is not within 1 % of {}",
+            period.mid, stated.text
+        ));
+    }
+    (moved.is_nan() || moved > NEAR).then(|| {
+        format!(
+            "the {what} that is found has period {:.10}, and lies at a distance of {moved:.1e} of the \
+             state: start nearer to it",
+            period.mid
+        )
+    })
 }
 
 /// Proves that no density is continuous and positive on the closed orbit near a start; `None` where
@@ -85,13 +124,8 @@ pub fn theorem_about(
 
 /// Compares the orbit that was found with the claim, which is about it: another may lie next to it.
 fn weigh(claim: &ClosedOrbit, found: &ProvedOrbit, judgement: &mut MotionJudgement) {
-    let shift = (found.period.mid - claim.period.value).abs() / claim.period.value;
-    if !(found.moved <= NEAR && shift <= NEAR) {
-        judgement.leave_open(format!(
-            "the closed orbit that is found has period {:.10}, and lies at a distance of {:.1e} \
-             of the state: start nearer to it",
-            found.period.mid, found.moved
-        ));
+    if let Some(reason) = far("closed orbit", found.moved, (&claim.period, found.period)) {
+        judgement.leave_open(reason);
         return;
     }
     let measured = |x: Enclosure| MeasuredNumber { value: x.mid, error: x.rad };

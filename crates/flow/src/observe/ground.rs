@@ -5,6 +5,7 @@ use std::borrow::Cow;
 
 use super::scene::FollowedCase;
 use crate::motion::kept::{is_energy_proved, is_proved};
+use crate::validated::is_alone;
 use crate::{Enclosure, FlowError, Loose, Obstacle, ProvedHorseshoe, ProvedOrbit, Request, Start};
 use liouville::case::Case;
 use liouville::claim::motion::{Beginning, ClosedOrbit, Horseshoe, Neighbourhood};
@@ -138,6 +139,12 @@ impl<'g> Ground<'g> {
         let found = self.asked_of(proof)?;
         self.checked(found.kept, &found.start)?;
         Ok(found)
+    }
+
+    /// Whether boxes that hold the start, and all periods within `unit` of that of the claim, hold one
+    /// closed orbit alone.
+    pub fn is_alone(&self, unit: f64) -> bool {
+        self.asked_of(|request| is_alone(request, unit)) == Ok(true)
     }
 
     /// Checks that a box of states lies where the integrals are proved.

@@ -1,6 +1,6 @@
 //! Horseshoes, proved by covering relations, and the integrals that they exclude.
 
-use super::closed_orbit::{NEAR, compare_period};
+use super::closed_orbit::{compare_period, doubt, far};
 use super::ground::Ground;
 use super::judgement::MotionJudgement;
 use super::scene::FollowedCase;
@@ -27,27 +27,23 @@ pub fn by(
     proof: impl FnOnce(&Request<'_>) -> Result<ProvedHorseshoe, Obstacle>,
 ) -> Result<(MotionJudgement, Option<ProvedHorseshoe>), FlowError> {
     let mut judgement = MotionJudgement::default();
-    let found = match Ground::of(claim.into(), scene, options)? {
-        Ok(ground) => ground.chaotic(proof),
-        Err(reason) => Err(reason),
-    };
+    let found = Ground::of(claim.into(), scene, options)?
+        .and_then(|ground| Ok((ground.chaotic(proof)?, ground)));
     match &found {
-        Ok(found) => weigh(claim, found, &mut judgement),
+        Ok((found, ground)) => {
+            weigh(claim, found, &mut judgement);
+            doubt(ground, (&claim.period, found.times[0]), &mut judgement);
+        }
         Err(reason) => judgement.leave_open(reason.clone()),
     }
-    Ok((judgement, found.ok()))
+    Ok((judgement, found.ok().map(|(found, _)| found)))
 }
 
 /// Compares a horseshoe with the claim.
 fn weigh(claim: &Claim, found: &ProvedHorseshoe, judgement: &mut MotionJudgement) {
     let [short, _] = found.times;
-    let shift = (short.mid - claim.period.value).abs() / claim.period.value;
-    if !(found.moved <= NEAR && shift <= NEAR) {
-        judgement.leave_open(format!(
-            "the saddle that is found has period {:.10}, and lies at a distance of {:.1e} of the \
-             state: start nearer to it",
-            short.mid, found.moved
-        ));
+    if let Some(reason) = far("saddle", found.moved, (&claim.period, short)) {
+        judgement.leave_open(reason);
         return;
     }
     judgement.note(

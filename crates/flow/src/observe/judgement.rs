@@ -63,6 +63,17 @@ impl MotionJudgement {
         self.open.push(reason);
     }
 
+    /// Whether there is a reason against the claim.
+    pub fn is_refuted(&self) -> bool {
+        !self.against.is_empty()
+    }
+
+    /// Leaves the claim open in place of all reasons against it.
+    pub fn withdraw(&mut self, reason: String) {
+        self.against.clear();
+        self.open = vec![reason];
+    }
+
     /// Compares one of several possibilities with the one claimed; `None` where it is not decided.
     pub fn expect<T: PartialEq>(&mut self, seen: Option<T>, claimed: T, what: &str) {
         match seen {

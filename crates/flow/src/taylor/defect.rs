@@ -15,6 +15,8 @@ use liouville::graph::{Kernel, with_widest_vectors};
 const MARGIN: f64 = 300.0;
 /// Multiple of the bound of their rounding, by which they may differ in any case.
 const ROUNDINGS: f64 = 64.0;
+/// Smallest number of f64: the second part of a rate that is a pair has at least this error.
+const LEAST_NUMBER: f64 = 5e-324;
 /// Number of times that a step is halved.
 const MOST_HALVES: usize = 60;
 /// Number of halves of a step from which on a quotient whose square underflows is to blame.
@@ -151,7 +153,8 @@ impl<T: SeriesNumber> Stepper<T> {
         (0..self.dimension()).all(|row| {
             let rate = self.series.probed_rate(row) * self.series.units;
             let gap = self.sampled.slopes[row] - rate;
-            let rounding = errors[row] * self.lanes[index].unit + T::EPSILON * sizes[row][1];
+            let unit = self.lanes[index].unit;
+            let rounding = (errors[row] + LEAST_NUMBER) * unit + T::EPSILON * sizes[row][1];
             gap.lane(index).leading().abs() <= allowed + ROUNDINGS * rounding
         })
     }

@@ -17,8 +17,10 @@ const SMALL: f64 = 1.0 / 128.0;
 const APART: usize = 4;
 /// Number of last terms among which two are looked for that are not 0.
 const LATE: usize = 6;
-/// Size of a function below which its terms may underflow.
+/// Size of a function below which its terms may underflow, as products of two numbers do.
 const TINY: f64 = 1e-140;
+/// The same of a component of the state: products of two numbers of its size are nothing beside it.
+const TINY_STATE: f64 = f64::MIN_POSITIVE;
 /// Exponent of an exponential function below which its terms may.
 const FAINT: f64 = -320.0;
 /// Growth of the exponent over a step which is possible from there on.
@@ -88,7 +90,7 @@ impl<T: SeriesNumber> Kernel for Resolution<'_, T> {
         let steps = T::from_lanes(|lane| stepper.lanes[lane].step) * T::float(1.0 / REACH);
         let last = Powers::new(steps, stepper.series.order() - 1);
         for row in stepper.series.functions(is_entire) {
-            last.limit(row, limits);
+            last.limit(row, TINY, limits);
         }
         if is_entire {
             return;
@@ -101,7 +103,7 @@ impl<T: SeriesNumber> Kernel for Resolution<'_, T> {
         let norm = still.larger(moving * lengths);
         for row in 0..stepper.dimension() {
             let terms = stepper.series.component(row);
-            last.limit(terms, limits);
+            last.limit(terms, TINY_STATE, limits);
             own.limit_small(terms, (norm, strict), limits);
         }
     }
@@ -141,7 +143,8 @@ impl<T: SeriesNumber> Powers<T> {
         for (lane, limit) in limits.iter_mut().enumerate() {
             let [size, norm, first, last] =
                 [size, norm, first, last].map(|x| x.lane(lane).leading());
-            if size < SMALL * norm && last >= first && last > TINY {
+            let last = if last == 0.0 { first } else { last };
+            if size < SMALL * norm && last >= first && last > TINY_STATE {
                 *limit = limit.min(resolved(terms, lane, reach));
             }
         }
@@ -149,7 +152,7 @@ impl<T: SeriesNumber> Powers<T> {
 
     /// Lowers the limits of the lanes in which the last terms are not small beside the first.
     #[inline(always)]
-    fn limit(&self, terms: &[T], limits: &mut [f64]) {
+    fn limit(&self, terms: &[T], tiny: f64, limits: &mut [f64]) {
         let count = terms.len();
         let first = T::ZERO.larger(terms[0]).larger(terms[1] * self.first);
         let last = T::ZERO.larger(terms[count - 2] * self.last[0]);
@@ -158,7 +161,7 @@ impl<T: SeriesNumber> Powers<T> {
             let [first, last] = [first, last].map(|x| x.lane(lane).leading());
             // Where terms underflow they tell nothing.
             let last = if last == 0.0 { first } else { last };
-            if last >= first && last > TINY {
+            if last >= first && last > tiny {
                 *limit = limit.min(resolved(terms, lane, REACH));
             }
         }
@@ -229,7 +232,7 @@ mod tests {
 
     fn limit(terms: &[f64], step: f64) -> f64 {
         let mut limits = [f64::INFINITY];
-        Powers::new(step / REACH, terms.len() - 1).limit(terms, &mut limits);
+        Powers::new(step / REACH, terms.len() - 1).limit(terms, TINY, &mut limits);
         limits[0].min(step)
     }
 

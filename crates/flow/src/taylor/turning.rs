@@ -4,7 +4,7 @@
 //! begins, and behind a step that ended so, the signs have to agree with where the arguments go: if
 //! neither sign of one does, the field pushes towards the zero from both sides, and the motion slides.
 
-use crate::taylor::event::{Event, Sides, size, starts_positive};
+use crate::taylor::event::{Event, Sides, size, slope, starts_positive, value};
 use crate::taylor::number::SeriesNumber;
 use crate::taylor::pace::Lane;
 use crate::taylor::plain::FAINT;
@@ -14,6 +14,10 @@ use crate::taylor::watch::{Edge, may_vanish};
 
 /// Number of steps in turn that end where they begin, from which on signs turn without end.
 pub(super) const MOST_STALLS: u32 = 64;
+/// Units in the last place of the largest term below which a function behind a zero is not known.
+const PLACES: f64 = 256.0;
+/// Number of halves of a step down to the first place behind a zero that is looked at.
+const MOST_HALVES: i32 = 60;
 
 impl<T: SeriesNumber> Stepper<T> {
     /// Gives signs that are still to be chosen those of the values of their arguments, where these are
@@ -48,6 +52,7 @@ impl<T: SeriesNumber> Stepper<T> {
     /// Chooses the signs of motions that begin, or that have just come to a zero of an argument.
     pub(crate) fn settle_signs(&mut self) {
         let count = self.series.signs();
+        self.doubt_signs();
         if count == 0 || self.lanes.iter().all(|lane| lane.is_settled) {
             return;
         }
@@ -76,6 +81,22 @@ impl<T: SeriesNumber> Stepper<T> {
         }
         for lane in &mut self.lanes {
             (lane.is_settled, lane.came_to) = (true, None);
+        }
+    }
+
+    /// Lets signs be chosen again where one is not that of its argument, which was 0 up to rounding for a
+    /// while and had no side.
+    fn doubt_signs(&mut self) {
+        for sign in 0..self.series.signs() {
+            let (row, argument) = self.series.signed(sign);
+            for lane in 0..T::LANES {
+                let first = argument[0].lane(lane).leading();
+                let differs = first != 0.0 && (first > 0.0) != self.series.is_positive(sign, lane);
+                if differs && self.lanes[lane].is_settled {
+                    let error = self.series.value_error(row, lane, &self.peaks).max(FAINT);
+                    self.lanes[lane].is_settled = first.abs() <= error;
+                }
+            }
         }
     }
 
@@ -114,11 +135,16 @@ impl<T: SeriesNumber> Stepper<T> {
             return true;
         }
         let error = self.series.value_error(row, lane, &self.peaks).max(FAINT);
-        let length =
-            self.step_size(lane).copysign((self.lanes[lane].until - self.lanes[lane].time).hi);
+        // A field that is 0 on one side has steps without an end.
+        let left = (self.lanes[lane].until - self.lanes[lane].time).hi / self.lanes[lane].unit;
+        let length = self.step_size(lane).min(left.abs()).copysign(left);
         match argument[0].leading() {
-            first if first.abs() > error => (first > 0.0) == is_positive,
             first if first.is_nan() || length.is_nan() => true,
+            _ if self.lanes[lane].steps > 0 => {
+                let length = known_part(&argument, T::One::float(length), self.kappa);
+                goes_positive(&argument, error, length) == is_positive
+            }
+            first if first.abs() > error => (first > 0.0) == is_positive,
             _ => starts_positive(&argument, error, T::One::float(length)) == is_positive,
         }
     }
@@ -138,9 +164,17 @@ impl<T: SeriesNumber> Stepper<T> {
                     continue;
                 }
                 lane.step = step;
-                let mut sides = Sides::on(self.series.is_positive(sign, place));
+                let is_positive = self.series.is_positive(sign, place);
+                let mut sides = Sides::on(is_positive);
                 let crossing = |event: Event<T::One>| match event {
-                    Event::Crossing { after, .. } => Some(after),
+                    Event::Crossing { after, .. } => {
+                        let rest = [after, step - after];
+                        let turns = match behind(&argument, error(), rest) {
+                            Some(side) => side != is_positive,
+                            None => is_simple(&argument, after, step),
+                        };
+                        turns.then_some(after)
+                    }
                     Event::Tangency { .. } => None,
                 };
                 let after = sides.events(&argument, step, error).into_iter().find_map(crossing);
@@ -171,4 +205,29 @@ impl<T: SeriesNumber> Stepper<T> {
             }
         }
     }
+}
+
+/// Sign of a function behind a place at which another one is 0, as well as that place is known: the
+/// function may have a zero there too, of any order, and the rounding of the place decides its first terms.
+fn goes_positive<T: SeriesNumber>(polynomial: &[T], error: f64, length: T) -> bool {
+    behind(polynomial, error, [T::ZERO, length])
+        .unwrap_or_else(|| starts_positive(polynomial, error, length))
+}
+
+/// Whether a root is simple: where rounding splits a double one, the slope is some √ε of its terms.
+fn is_simple<T: SeriesNumber>(polynomial: &[T], root: T, length: T) -> bool {
+    let slopes = slope(polynomial);
+    let least = PLACES * T::EPSILON.sqrt() * size(&slopes, length);
+    value(&slopes, root).0.leading().abs() > least
+}
+
+/// Sign that a function has first, by more than rounding, from a place on, over a length.
+fn behind<T: SeriesNumber>(polynomial: &[T], error: f64, [from, length]: [T; 2]) -> Option<bool> {
+    let limit = error.max(PLACES * T::EPSILON * size(polynomial, from + length));
+    let at = |halves: i32| {
+        let after = length * T::float(libm::ldexp(1.0, -halves));
+        value(polynomial, from + after).0.leading()
+    };
+    let values = (0..=MOST_HALVES).rev().map(at);
+    values.into_iter().find(|value| value.abs() > limit).map(|value| value > 0.0)
 }

@@ -88,8 +88,17 @@ impl<T: SeriesNumber> Stepper<T> {
             if is_lost || own.until.hi == own.time.hi {
                 continue;
             }
-            if self.velocity(lane).iter().all(|rate| rate.is_finite()) {
-                self.lanes[lane].unit *= libm::ldexp(1.0, -GRAIN);
+            let rates = self.velocity(lane);
+            if rates.iter().all(|rate| rate.is_finite()) {
+                let size = |parts: &mut dyn Iterator<Item = f64>| {
+                    parts.fold(0.0, |a: f64, x| a.max(x.abs()))
+                };
+                let state = self.state.iter().map(|x| x.lane(lane).leading());
+                let scale = size(&mut state.clone()) / size(&mut rates.into_iter());
+                let shorter = self.lanes[lane].unit * libm::ldexp(1.0, -GRAIN);
+                // A state of 0 has no scale of time.
+                let own = if scale > 0.0 && scale.is_finite() { unit(scale) } else { shorter };
+                self.lanes[lane].unit = shorter.min(own);
                 any = true;
             }
         }

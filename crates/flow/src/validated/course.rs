@@ -70,7 +70,7 @@ impl Course<'_> {
     }
 
     /// Whether Krawczyk's test proves that there is one orbit alone in wider boxes.
-    fn is_unique(&self, radii: &[f64]) -> bool {
+    pub fn is_unique(&self, radii: &[f64]) -> bool {
         let OrbitSearch { shooting, nodes, frames, inverse } = self.search;
         let starts = boxes(nodes, Some(radii));
         let period = Enclosure::about(nodes.period, radii[radii.len() - 1]);

@@ -7,6 +7,7 @@
 //!
 //! docs/closed-orbits.md has the theorem, and its conditions on the numbers computed here.
 
+mod alone;
 mod band;
 mod coefficients;
 mod course;
@@ -31,6 +32,7 @@ mod tail;
 #[cfg(test)]
 mod tests;
 
+pub use alone::is_alone;
 pub use enclosure::Enclosure;
 pub use forward::{Reached, follow};
 pub use horseshoe::{HorseshoeTrace, Margin, ProvedHorseshoe, prove as prove_horseshoe};
@@ -173,12 +175,9 @@ impl<'s> OrbitSearch<'s> {
         Err(Obstacle::NoOrbit)
     }
 
-    /// Finds boxes that Krawczyk's operator maps into their interior.
-    fn prove(mut self, wants_multipliers: bool) -> Result<ProvedOrbit, Obstacle> {
-        // To the last digit of f64: the residual has twice as many.
-        let step = self.inverse.times(&residual(self.shooting, &self.nodes, &self.frames)?);
-        self.nodes.move_by(&step.iter().map(|x| -x).collect::<Vec<_>>());
-        let Self { shooting, nodes, frames, inverse } = &self;
+    /// Bounds of ‖C G‖ at the nodes, unknown by unknown, for all values of the parameters.
+    fn offsets(&self) -> Result<Vec<f64>, Obstacle> {
+        let Self { shooting, nodes, frames, inverse } = self;
         let mut offsets = inverse.bounds(&residual(shooting, nodes, frames)?);
         if shooting.motion.loose > 0 {
             // By the mean value theorem in the parameters, at the nodes.
@@ -189,6 +188,16 @@ impl<'s> OrbitSearch<'s> {
                 offsets = offsets.iter().zip(&moved).map(|(a, b)| raised(a, b)).collect();
             }
         }
+        Ok(offsets)
+    }
+
+    /// Finds boxes that Krawczyk's operator maps into their interior.
+    fn prove(mut self, wants_multipliers: bool) -> Result<ProvedOrbit, Obstacle> {
+        // To the last digit of f64: the residual has twice as many.
+        let step = self.inverse.times(&residual(self.shooting, &self.nodes, &self.frames)?);
+        self.nodes.move_by(&step.iter().map(|x| -x).collect::<Vec<_>>());
+        let Self { shooting, nodes, frames, inverse } = &self;
+        let offsets = self.offsets()?;
         let unknowns: Vec<f64> =
             nodes.states.iter().flatten().copied().chain([nodes.period]).collect();
         let floor = |x: &f64| LEAST_RADIUS * x.abs().max(1.0);

@@ -32,7 +32,10 @@ pub enum Obstacle {
     #[error("no closed orbit is found near the start: Newton's method does not converge")]
     NoOrbit,
     /// A step is not proved.
-    #[error("no step of the series is proved near t = {0:.3}: a pole or a branch is too near")]
+    #[error(
+        "no step of the series is proved near t = {0:.3}: the field varies too much there, as near a pole \
+         or a branch"
+    )]
     NoStep(f64),
     /// The boxes are not mapped into themselves.
     #[error(

@@ -1,6 +1,7 @@
 //! Closed orbits: proved where they are, with known numbers inside the enclosures, and not
 //! elsewhere.
 
+mod alone;
 mod boxes;
 mod horseshoes;
 mod kept;

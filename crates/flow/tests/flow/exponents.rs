@@ -161,3 +161,11 @@ fn exponents_of_maps_are_per_iterate() {
     assert_eq!(mcmillan.largest.character, Character::Regular, "{mcmillan:?}");
     assert!(mcmillan.largest.largest.mean.abs() < 2e-3, "{mcmillan:?}");
 }
+
+#[test]
+fn a_map_that_takes_several_states_to_one_has_chaos_alone() {
+    // The map of Ulam and von Neumann takes [0, 1] to itself twice; areas grow by 9/5 on average.
+    let found = of_map(["4*x*(1 - x)", "9/10*y"], ["0.3217", "0.1234"], 20_000);
+    assert_eq!(found.largest.character, Character::Chaos, "{found:?}");
+    assert!((found.largest.divergence.mean - 1.8f64.ln()).abs() < 1e-2, "{found:?}");
+}

@@ -1,6 +1,7 @@
 //! Motions: drift of integrals, reversal in time, known solutions, an independent integrator.
 
 mod chaos;
+mod common_zeros;
 mod contacts;
 mod cycles;
 mod features;

@@ -102,7 +102,7 @@ pub struct BranchPoint {
 impl BranchPoint {
     /// Whether no multiplier lies outside the unit circle by more than its error.
     pub fn is_stable(&self) -> bool {
-        self.multipliers.iter().all(|one| one.modulus() <= 1.0 + one.modulus_error.max(1e-9))
+        self.multipliers.iter().all(|one| one.modulus() - 1.0 <= one.modulus_error)
     }
 }
 

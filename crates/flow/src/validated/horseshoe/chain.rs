@@ -23,6 +23,17 @@ pub struct Link {
     /// Change of the time to the next surface with the coordinates, and at the node.
     pub late: [f64; 2],
     late_here: f64,
+    /// Height of the end of the motion from the node over the next surface.
+    height: f64,
+}
+
+/// Largest distance by which a chain is off: of corrections within the surfaces, and of ends from the
+/// next surface, which corrections of the times remove.
+pub fn longest(links: &[Link], steps: &[[f64; 2]]) -> f64 {
+    let heights = links.iter().map(|link| &link.height);
+    let parts = steps.iter().flatten().chain(heights);
+    // A maximum would leave out a part without a value.
+    parts.fold(0.0, |a: f64, x| if x.abs() <= a { a } else { x.abs() })
 }
 
 /// Surface at a node with an orthonormal basis of its tangents.
@@ -134,11 +145,13 @@ impl Chain {
             let ([a, c], first) = turned(&along(0));
             let ([b, d], second) = turned(&along(1));
             let (here, late_here) = turned(&gap);
+            let height = dot(&next.normal, &gap);
             links.push(Link {
                 slopes: [[a, b], [c, d]],
                 gap: here,
                 late: [first, second],
                 late_here,
+                height,
             });
         }
         Some(links)

@@ -30,6 +30,7 @@ use super::replay::HorseshoeData;
 use super::request::moved;
 use super::shooting::{Shooting, combined};
 use super::{Obstacle, Request, prepared};
+use crate::motion::start::Start;
 use chart::{Patch, SurfaceChart, are_joined};
 use cover::{PlaneMap, Rectangle, is_hyperbolic, product};
 use legs::{Crossed, Leg, LegFailure, crossed};
@@ -74,8 +75,7 @@ pub fn prove(request: &Request<'_>) -> Result<ProvedHorseshoe, Obstacle> {
     shooting.motion.order = ORDER;
     let mut obstacle = Obstacle::NoOrbit;
     for kappa in KAPPAS {
-        let nodes = Nodes::along(model, start, request.period, kappa, MOST_NODES)?;
-        let saddle = match Saddle::new(&shooting, nodes.ok_or(Obstacle::TooLong)?) {
+        let saddle = match refined(request, &shooting, kappa) {
             Ok(saddle) => saddle,
             // Shorter segments have better chances.
             Err(problem @ Obstacle::NoStep(_)) => {
@@ -115,6 +115,17 @@ pub fn prove(request: &Request<'_>) -> Result<ProvedHorseshoe, Obstacle> {
         }
     }
     Err(obstacle)
+}
+
+/// Saddle near the start, with nodes along the orbit that Newton's method finds: so they do not depend
+/// on the digits to which the start and the period are given.
+fn refined(request: &Request<'_>, shooting: &Shooting, kappa: f64) -> Result<Saddle, Obstacle> {
+    let along = |start: &Start, period: f64| {
+        let nodes = Nodes::along(request.model, start, period, kappa, MOST_NODES)?;
+        Saddle::new(shooting, nodes.ok_or(Obstacle::TooLong)?)
+    };
+    let first = along(request.start, request.period)?;
+    along(&request.start.with_state(&first.home.origin), first.period())
 }
 
 /// Reason why one homoclinic orbit proves nothing.
@@ -187,12 +198,7 @@ impl HorseshoeSearch<'_, '_> {
             arrivals += 1;
             end *= back.abs();
         }
-        let mut start = request.start.clone();
-        start.state = seeker
-            .start(homoclinic.start)
-            .into_iter()
-            .map(liouville::number::double_double::DoubleDouble::from_f64)
-            .collect();
+        let start = request.start.with_state(&seeker.start(homoclinic.start));
         let most = MOST_NODES.saturating_sub((turns + arrivals) * saddle.len());
         let excursion = Nodes::along(request.model, &start, homoclinic.time, *kappa, most)?;
         let Some(excursion) = excursion else { return Ok(Err(PathProblem::Size)) };

@@ -2,7 +2,7 @@
 
 use super::super::guess::Nodes;
 use super::super::shooting::Shooting;
-use super::chain::{Chain, Directions, Link, NodePlane, settle};
+use super::chain::{Chain, Directions, Link, NodePlane, longest, settle};
 use super::chart::SurfaceChart;
 use super::saddle::Saddle;
 use super::vectors::{dot, minus, plus};
@@ -43,7 +43,7 @@ impl Path {
             let first = -off(0)[1] / slope(1, 0, directions.stable[0]);
             let behind = -off(end)[0] / slope(0, end, directions.unstable[end]);
             let steps = directions.closing(&links, first, behind);
-            let longest = steps.iter().flatten().fold(0.0, |a: f64, x| a.max(x.abs()));
+            let longest = longest(&links, &steps);
             if longest.is_nan() || longest > FAR * size {
                 return None;
             }

@@ -3,7 +3,7 @@
 use super::super::Obstacle;
 use super::super::guess::Nodes;
 use super::super::shooting::Shooting;
-use super::chain::{Chain, Directions, Link, NodePlane, settle};
+use super::chain::{Chain, Directions, Link, NodePlane, longest, settle};
 use super::chart::SurfaceChart;
 use super::vectors::{moved, plus, split, unit};
 
@@ -48,7 +48,7 @@ impl Saddle {
             let links =
                 chain.links(shooting, &planes, last < SHARP * size).ok_or(Obstacle::NoStep(0.0))?;
             let steps = closing(&links);
-            let longest = steps.iter().flatten().fold(0.0, |a: f64, x| a.max(x.abs()));
+            let longest = longest(&links, &steps);
             if longest.is_nan() || longest > FAR * size {
                 return Err(Obstacle::NoOrbit);
             }

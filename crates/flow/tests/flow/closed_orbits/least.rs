@@ -182,8 +182,13 @@ fn for_all_parameters_a_return_may_be_open() {
         let (orbit, found) = (claim(2, half, ""), claim(2, half, least));
         assert_ne!(found.verdict, Verdict::Proved, "{half}: {:?}", found.evidence);
         if orbit.verdict == Verdict::Proved && found.verdict == Verdict::Undecided {
+            let reason = reason(&found);
+            // A return is proved, and not that no other orbit is meant.
+            if reason.contains("not proved to be the only one") {
+                continue;
+            }
             open += 1;
-            assert!(reason(&found).contains("neither a return"), "{half}: {:?}", found.evidence);
+            assert!(reason.contains("neither a return"), "{half}: {:?}", found.evidence);
             assert!(!theorem(&orbit).contains("least"), "{half}: {}", theorem(&orbit));
         }
     }

@@ -92,3 +92,14 @@ fn units_of_time_do_not_decide_where_a_motion_begins() {
         assert!((found.end[0].hi + 0.5).abs() < 1e-12, "{rate}: it sticks to the wall");
     }
 }
+
+#[test]
+fn a_lift_too_low_to_be_seen_leaves_the_body_on_the_floor() {
+    // At each peak the force is positive for 7e-6, and lifts by 5e-15.
+    let case = floor("3*(sin(7*t) - 1) + 10^(-9)", "x");
+    for begin in ["x=0 t=0", "x=1/10 t=0"] {
+        let found = followed(&case, begin, 20.0, Precision::Float);
+        assert!(found.end[0].hi.abs() < 1e-13, "{begin}: {:e}", found.end[0].hi);
+        assert!(found.events.len() < 60, "{begin}: {} events", found.events.len());
+    }
+}

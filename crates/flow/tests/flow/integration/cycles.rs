@@ -2,7 +2,9 @@
 
 use liouville::case::Case;
 use liouville::number::rational::Rational;
-use liouville_flow::{BasinRequest, Basins, Character, Columns, Lexicon, StateAxis, basins};
+use liouville_flow::{
+    BasinRequest, Basins, Character, Columns, Destiny, Lexicon, StateAxis, basins,
+};
 
 use crate::integration::parse;
 
@@ -52,5 +54,18 @@ fn a_limit_cycle_of_the_plane_is_one_attractor() {
         assert!(!one.is_point, "{rates:?}, {time}: no point");
         let class = one.exponents.as_ref().expect("exponents").character;
         assert_eq!(class, Character::Regular, "{rates:?}, {time}");
+    }
+}
+
+#[test]
+fn a_weak_focus_is_no_cycle() {
+    for friction in ["y^3", "y*abs(y)/2"] {
+        let case = parse(&format!(
+            "title = 'a'\n[state]\nx = '-2..2'\ny = '-2..2'\n[field]\n\"x'\" = 'y'\n\"y'\" = '-x - {friction}'\n"
+        ));
+        let found = found(&case, ["x=-2..2", "y=-2..2"], 2, 400.0);
+        assert!(found.attractors.is_empty(), "{friction}: {:?}", found.attractors);
+        let is_open = |end: &Destiny| *end == Destiny::Unsettled;
+        assert!(found.ends.iter().all(is_open), "{friction}: {:?}", found.ends);
     }
 }

@@ -79,3 +79,29 @@ fn a_slow_component_keeps_its_digits_beside_a_clock() {
         assert!(error.abs() < 1e-13, "10^-{slow}: {error:e}");
     }
 }
+
+#[test]
+fn components_of_any_size_keep_their_digits_beside_larger_ones() {
+    for (rates, begin, time, expected) in [
+        // A delayed loss of stability, by way of e^(−500)
+        ([("x", "y*x"), ("y", "1/1000")], "x=1 y=-1", 2000.0, 1.0),
+        ([("x", "-x"), ("y", "1")], "x=1 y=0", 400.0, (-400f64).exp()),
+        ([("x", "x*(1 - x)"), ("y", "1")], "x=1/10^200 y=0", 800.0, 1.0),
+    ] {
+        let case = field(&rates);
+        for precision in BOTH {
+            let end = followed(&case, begin, time, precision).expect("a motion").end;
+            let error = end[0].hi / expected - 1.0;
+            assert!(error.abs() < 1e-11, "{rates:?}, {precision:?}: {error:e}");
+        }
+    }
+}
+
+#[test]
+fn rates_of_any_size_have_a_first_expansion() {
+    let case = field(&[("x", "10^100*y"), ("y", "-10^100*x")]);
+    for precision in BOTH {
+        let end = followed(&case, "x=1 y=0", 1e-99, precision).expect("a motion").end;
+        assert!((end[0].hi - 10f64.cos()).abs() < 1e-13, "{precision:?}: {}", end[0].hi);
+    }
+}

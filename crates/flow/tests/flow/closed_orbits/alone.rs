@@ -1,0 +1,31 @@
+//! Wrong claims about a closed orbit: refuted only where no other orbit can be meant.
+
+use liouville::verdict::Verdict;
+
+use super::judged;
+
+#[test]
+fn a_neighbour_of_the_claimed_orbit_refutes_nothing() {
+    // A sink at r = 1, and a source at r = √1.001 of period 2π/1.001
+    let claim = |claim: &str| {
+        judged(&format!(
+            "title = 'two cycles'\n[state]\nx = '-2..2'\ny = '-2..2'\n[let]\nr2 = 'x² + y²'\n[field]\n\
+             \"x'\" = '−y*r2 + 10*x*(1 − r2)*(1.001 − r2)'\n\
+             \"y'\" = 'x*r2 + 10*y*(1 − r2)*(1.001 − r2)'\n[[claim]]\n{claim}\n\
+             state = {{ x = '1', y = '0' }}\n"
+        ))
+    };
+    for text in ["closed-orbit = 6.276908399", "closed-orbit = 6.28\nstability = \"source\""] {
+        let found = claim(text);
+        assert_eq!(found.verdict, Verdict::Undecided, "{text}: {:?}", found.evidence);
+        let reason = found.evidence.reason.unwrap_or_default();
+        assert!(reason.contains("has period 6.2831853072"), "{text}: {reason}");
+    }
+    assert_eq!(claim("closed-orbit = 6.28319").verdict, Verdict::Proved, "the sink");
+    assert_eq!(claim("closed-orbit = 6.283187").verdict, Verdict::Refuted, "alone within 3e-6");
+    let circle = "title = 'circle'\n[state]\nx = '-2..2'\ny = '-2..2'\n[field]\n\
+        \"x'\" = '−y + x*(1 − x² − y²)'\n\"y'\" = 'x + y*(1 − x² − y²)'\n\
+        [[claim]]\nclosed-orbit = 7\nstate = { x = '1', y = '0' }\n";
+    let far = judged(circle).evidence.reason.unwrap_or_default();
+    assert!(far.contains("period 6.2831853072, which is not within 1 % of 7"), "{far}");
+}
