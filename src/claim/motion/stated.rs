@@ -6,7 +6,7 @@ use crate::number::rational::Rational;
 
 /// A number with the accuracy implied by its notation.
 ///
-/// `1`, `3/7`, `π/2` are exact; `0.0331941` is correct to one unit in its last place;
+/// `1`, `3/7`, `π/2` are exact; `0.0331941` is correct to one unit in its last place, in quotients as well;
 /// `0.035 ± 0.003` has a standard error.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stated {
@@ -56,10 +56,13 @@ fn multiple_of_pi(factor: &str, divisor: &str) -> Option<(f64, f64)> {
     Some((value.to_f64().0 * PI, unit(factor)? * share.to_f64().0.abs() * PI))
 }
 
-/// Returns one unit in the last place of a decimal, and 0 for an integer or a fraction.
+/// Returns one unit in the last place of a decimal, and 0 for an integer; of a quotient what the units of both make.
 fn unit(number: &str) -> Option<f64> {
-    if number.contains('/') {
-        return Some(0.0);
+    if let Some((above, below)) = number.split_once('/') {
+        let value = |text: &str| Some(text.trim().parse::<Rational>().ok()?.to_f64().0.abs());
+        let (above, below) =
+            ((value(above)?, unit(above.trim())?), (value(below)?, unit(below.trim())?));
+        return Some((above.1 + above.0 / below.0 * below.1) / below.0);
     }
     let (digits, exponent) = match number.split_once(['e', 'E']) {
         Some((digits, exponent)) => (digits, exponent.trim().parse().ok()?),
@@ -85,7 +88,8 @@ mod tests {
         assert_eq!(read("0.035 ± 0.003"), Some((0.035, 0.001, 0.003)), "with its error");
         assert_eq!(read("2.5e-3"), Some((0.0025, 1e-4, 0.0)), "an exponent moves the place");
         assert_eq!(read("1_000.12_5"), Some((1000.125, 1e-3, 0.0)), "digits in groups");
-        assert_eq!(read("1.50/3"), Some((0.5, 0.0, 0.0)), "a fraction is exact");
+        assert_eq!(read("1.50/3"), Some((0.5, 0.01 / 3.0, 0.0)), "two decimals over a number");
+        assert_eq!(read("3/1.5"), Some((2.0, 2.0 * 0.1 / 1.5, 0.0)), "one decimal below");
         assert_eq!(read("2 * pi"), Some((2.0 * PI, 0.0, 0.0)), "exact");
         assert_eq!(read("1.5*pi"), Some((1.5 * PI, 0.1 * PI, 0.0)), "one decimal, times π");
         assert_eq!(read("-0.5π/2"), Some((-0.25 * PI, 0.05 * PI, 0.0)), "one decimal, times π/2");

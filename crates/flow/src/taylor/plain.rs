@@ -136,7 +136,8 @@ impl<T: SeriesNumber> Series<T> {
     fn errors(&self, memory: &[T], lane: usize, known: Vec<f64>) -> Vec<f64> {
         let value = |place: Place| memory[place as usize].lane(lane).leading();
         let mut errors = known;
-        errors.resize(self.code.state.len() + self.code.operations.len(), 0.0);
+        // A program without its outputs leaves rows out.
+        errors.resize(memory.len().div_ceil(T::WIDTH + self.orders), 0.0);
         for (operation, finish) in self.code.operations.iter().zip(&self.code.finishes) {
             let at = |x: Place| (value(x), errors[self.index(x)]);
             errors[self.index(finish.place)] = self.error(operation, value(finish.place), lane, at);

@@ -202,3 +202,16 @@ fn a_state_off_the_level_is_said_to_be() {
     let more = liouville(&["eval", &case, "--state", "x=1/2"]).assert().success();
     more.stdout(contains("is too large, or too near 0"));
 }
+
+#[test]
+fn a_motion_that_ends_under_a_surface_with_functions_of_its_own_is_reported() {
+    let field = "title = 't'\n[state]\nx = '-2..2'\ny = '-2..2'\n[field]\n\"x'\" = 'y'\n\"y'\" = '-x - 1/(x-1/2)'\n";
+    let home = folder("ends", &[("ends.toml", field)]);
+    let case = home.join("ends.toml").display().to_string();
+    for surface in ["abs(y-1/7)=1/3", "1/(x-1/3)=2"] {
+        liouville(&["motion", "section", &case, "--section", surface, "--axes", "x,y"])
+            .args(["--start", "x=1 y=0", "--crossings", "400", "--direction", "both"])
+            .assert()
+            .stderr(contains("panicked").not().and(contains("the program failed").not()));
+    }
+}
