@@ -1,8 +1,9 @@
 //! Symmetry fields, tangent to the level: [u,v] = (u·∇)v - (v·∇)u vanishes, or is a multiple of v.
 
+use super::boxes::Boxes;
 use super::components::Components;
 use super::{Condition, Reader, Statement, ValueShape};
-use crate::formula::{Formula, Type};
+use crate::formula::{Formula, Layout, Type};
 use crate::graph::Expr;
 use crate::mechanics::calculus::DualPoint;
 use crate::mechanics::elimination::{dot, rejection};
@@ -28,6 +29,24 @@ impl Statement for SymmetryField {
 
     fn text(&self) -> Option<String> {
         Some(self.components.text.clone())
+    }
+
+    fn layout(&self, boxes: Boxes<'_>) -> Option<Layout> {
+        let bracket = Layout::Row(vec![
+            Layout::name("u", Type::VECTOR),
+            Layout::Sign(","),
+            Layout::name("v", Type::VECTOR),
+        ]);
+        let bracket = Layout::Fenced("[", Box::new(bracket), "]");
+        let weight = self.weight.iter().map(|own| {
+            let multiple = [boxes.factor(own), Layout::Space, Layout::name("v", Type::VECTOR)];
+            Layout::equation(bracket.clone(), Layout::Row(multiple.to_vec()))
+        });
+        Some(Layout::listed([boxes.field(&self.components)].into_iter().chain(weight)))
+    }
+
+    fn particulars(&self) -> Option<String> {
+        Some(format!("[u,v] = {}*v", self.weight.as_ref()?.as_factor().text().trim()))
     }
 
     fn formulas(&self) -> Vec<&Formula> {

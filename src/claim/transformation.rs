@@ -1,10 +1,11 @@
 //! Maps of phase space: symmetries, reversors, scalings, and maps to other systems.
 
+use super::boxes::Boxes;
 use super::elsewhere::{inverse_at, one_antiderivative, system_at, written_at};
 use super::images::Transformation;
 use super::statement::open_constant;
 use super::{Condition, Jets, Need, Reader, Statement, ValueShape, difference, quadrature_defects};
-use crate::formula::{Formula, Type};
+use crate::formula::{Formula, Layout, Type};
 use crate::graph::{Expr, record};
 use crate::mechanics::calculus::DualPoint;
 use crate::mechanics::{Dependence, Meaning, Model, Phase, Variable};
@@ -61,6 +62,14 @@ impl Statement for Symmetry {
 
     fn text(&self) -> Option<String> {
         Some(self.map.text.clone())
+    }
+
+    fn layout(&self, boxes: Boxes<'_>) -> Option<Layout> {
+        Some(boxes.images(&self.map, self.time.as_ref()))
+    }
+
+    fn particulars(&self) -> Option<String> {
+        Some(format!("t → {}*t", self.time.as_ref()?.as_factor().text().trim()))
     }
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
@@ -163,6 +172,10 @@ impl Statement for Reversor {
 
     fn text(&self) -> Option<String> {
         Some(self.0.text.clone())
+    }
+
+    fn layout(&self, boxes: Boxes<'_>) -> Option<Layout> {
+        Some(boxes.images(&self.0, None))
     }
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {

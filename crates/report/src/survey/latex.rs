@@ -88,7 +88,7 @@ fn entry(entry: &JudgedClaim) -> String {
     }
     out.push('\n');
     match (&entry.layout, &entry.statement) {
-        (Some(layout), Some(_)) => out.push_str(&format!("\\[ {} \\]\n", formula(layout))),
+        (Some(layout), _) => out.push_str(&format!("\\[ {} \\]\n", formula(layout))),
         (None, Some(text)) => {
             // Long ones are broken at their signs.
             out.push_str(&format!("\n{{\\sloppy\\texttt{{{}}}\\par}}\n\n", escaped(text)));

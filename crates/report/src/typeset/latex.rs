@@ -76,6 +76,11 @@ fn letters_wide(layout: &Layout) -> f64 {
 fn command(sign: &str) -> String {
     match sign {
         "−" => "-".to_string(),
+        "±" => "\\pm".to_string(),
+        "≤" => "\\le".to_string(),
+        "→" => "\\to".to_string(),
+        "∂" => "\\partial".to_string(),
+        "…" => "\\dots".to_string(),
         "×" => "\\times".to_string(),
         "⊗" => "\\otimes".to_string(),
         "·" => "\\cdot".to_string(),

@@ -103,6 +103,7 @@ pub fn is_claimed_density(case: &Case, options: &Options, found: &ClaimReport) -
 /// Makes a finding from a result of the search, with the names that the search added.
 pub fn of_search(case: &Case, found: Found) -> TestedClaim {
     let names = found.abbreviations.iter().map(|(name, text)| define(name, text)).collect();
+    let field: Vec<_> = found.fields.iter().map(|(name, own)| define(name, own.text())).collect();
     let claim = ClaimReport {
         name: found.kind.replace('-', " "),
         formula: Some(found.formula),
@@ -121,5 +122,6 @@ pub fn of_search(case: &Case, found: Found) -> TestedClaim {
     let with = found.with.iter().map(|(what, text)| format!("with the {what} {text}"));
     let with: Vec<String> = with.collect();
     let remark = (!with.is_empty()).then(|| with.join("; "));
-    TestedClaim { values, remark, ..TestedClaim::found(case, claim, names) }
+    let tested = TestedClaim { values, remark, ..TestedClaim::found(case, claim, names) };
+    if field.is_empty() { tested } else { tested.with_field(case, &field) }
 }
