@@ -249,7 +249,10 @@ pub fn over_denominators(
             )),
         }
         if irrational > 0 {
-            let text = format!("{irrational} relations do not have small rational coefficients");
+            let text = match irrational {
+                1 => "1 relation does not have small rational coefficients".to_string(),
+                more => format!("{more} relations do not have small rational coefficients"),
+            };
             report.remark_of(RemarkOrigin::Irrational, text);
         }
         let written = |vector: &Vec<Rational>| {

@@ -291,14 +291,19 @@ fn count(count: &IntegralCount, place: &HierarchyPlace) -> String {
 
 fn maps(survey: &Survey) -> Vec<SectionBlock> {
     let mut found = Vec::new();
-    let row = |one: &TestedClaim, with_set: bool| {
+    // Maps without a name of their own are named by their images.
+    let has_names = |all: &[TestedClaim]| {
+        all.iter().any(|one| !one.claim.name.starts_with(&format!("{} ", one.claim.kind)))
+    };
+    let row = |one: &TestedClaim, is_named: bool, with_set: bool| {
         let map = one.images.iter().map(|image| format!("{} ↦ {}", image.name, image.formula));
         let map = map.collect::<Vec<_>>().join(", ");
-        let mut cells = vec![
-            TableCell::Text(one.claim.name.clone()),
-            TableCell::Formula(map, one.shown.statement.clone()),
-            TableCell::Text(one.claim.verdict.word().to_string()),
-        ];
+        let mut cells = Vec::new();
+        if is_named {
+            cells.push(TableCell::Text(one.claim.name.clone()));
+        }
+        cells.push(TableCell::Formula(map, one.shown.statement.clone()));
+        cells.push(TableCell::Text(one.claim.verdict.word().to_string()));
         if with_set {
             cells.push(TableCell::Text(match one.fixed_set.map(|set| set.dimension) {
                 Some(Some(dimension)) => dimension.to_string(),
@@ -311,19 +316,24 @@ fn maps(survey: &Survey) -> Vec<SectionBlock> {
     if survey.reversors.is_empty() {
         found.push(text(format!("No reversor was found among {}.", survey.maps_tried)));
     } else {
-        found.push(text(
-            "Reversors, with the dimension of what they leave in place on the level set:",
-        ));
+        let place = if survey.independence.has_level { " on the level set" } else { "" };
+        found.push(text(format!(
+            "Reversors, with the dimension of what they leave in place{place}:"
+        )));
+        let is_named = has_names(&survey.reversors);
+        let head = ["reversor", "map", "verdict", "dimension"];
         found.push(SectionBlock::Table {
-            head: vec!["reversor", "map", "verdict", "dimension"],
-            rows: survey.reversors.iter().map(|one| row(one, true)).collect(),
+            head: head[usize::from(!is_named)..].to_vec(),
+            rows: survey.reversors.iter().map(|one| row(one, is_named, true)).collect(),
         });
     }
     if !survey.symmetries.is_empty() {
         found.push(text("Discrete symmetries:"));
+        let is_named = has_names(&survey.symmetries);
+        let head = ["symmetry", "map", "verdict"];
         found.push(SectionBlock::Table {
-            head: vec!["symmetry", "map", "verdict"],
-            rows: survey.symmetries.iter().map(|one| row(one, false)).collect(),
+            head: head[usize::from(!is_named)..].to_vec(),
+            rows: survey.symmetries.iter().map(|one| row(one, is_named, false)).collect(),
         });
     }
     found

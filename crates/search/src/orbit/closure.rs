@@ -192,7 +192,7 @@ impl Closure<'_, '_> {
             && terms <= (2 * most_terms).min(MOST_TERMS[1])
             && (self.algebra.is_of_field(&candidate.polynomial)
                 || !self.setting.effort.terms.is_empty());
-        if !is_independent && !is_component {
+        if !is_independent && (!is_component || self.is_of_one(&formula)?) {
             return Ok(false);
         }
         let is_told = match is_independent {
@@ -267,6 +267,19 @@ impl Closure<'_, '_> {
             return Ok(false);
         };
         Ok(after > before)
+    }
+
+    /// Whether a function is one of a single known integral, as e^(−H) is.
+    fn is_of_one(&self, formula: &Formula) -> Result<bool, SearchError> {
+        let all: Vec<usize> = (0..self.setting.dimension()).collect();
+        for known in self.independent.formulas() {
+            let mut alone = self.independent.none();
+            alone.add(known.clone(), None, &all);
+            if !self.is_independent(formula, &alone)? {
+                return Ok(true);
+            }
+        }
+        Ok(false)
     }
 
     /// Whether the gradient of a function is independent of those of some integrals.

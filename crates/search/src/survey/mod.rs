@@ -22,6 +22,7 @@ mod description;
 mod drawn_states;
 mod exchanges;
 mod family;
+mod fixed_sets;
 mod geometry;
 mod hamiltonian;
 mod hierarchy;

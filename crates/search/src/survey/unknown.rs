@@ -85,7 +85,7 @@ impl SearchOutcome {
 /// Source of what the search has found.
 const OF_SEARCH: &str = "found by the search";
 
-/// Whether a density of the search is proved to be one that the case claims.
+/// Whether a density of the search is proved to be one that the case claims, up to a factor.
 pub fn is_claimed_density(case: &Case, options: &Options, found: &ClaimReport) -> bool {
     if found.kind != "density" || found.source != OF_SEARCH {
         return false;
@@ -95,8 +95,10 @@ pub fn is_claimed_density(case: &Case, options: &Options, found: &ClaimReport) -
     };
     let claimed = case.claims.iter().filter(|claim| claim.kind.name() == "density");
     claimed.filter_map(|claim| claim.kind.formula()).any(|other| {
-        let judged = case.judge(&[Claim::identity(&own, other)], options);
-        judged.is_ok_and(|judged| judged.claims.iter().all(|own| own.verdict == Verdict::Proved))
+        // They are the same up to a factor where their quotient is constant.
+        let Ok(quotient) = &own.bracketed() / &other.bracketed() else { return false };
+        let judged = case.judge(&[Claim::independent(vec![quotient])], options);
+        judged.is_ok_and(|judged| judged.claims.iter().all(|own| own.verdict == Verdict::Refuted))
     })
 }
 

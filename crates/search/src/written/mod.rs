@@ -4,6 +4,7 @@
 //! tokens     names, functions and inner products of a formula as variables
 //! fraction   fractions of polynomials in these
 //! reader     texts as fractions
+//! circular   even powers of sines and cosines as those of the other
 //! hyperbolic exponentials e^u and e^(−u) as cosh u and sinh u
 //! writer     fractions as texts
 //! named      expressions of the file that occur as factors
@@ -13,6 +14,7 @@
 //!
 //! A text takes the place of another where it is shorter, and proved to be the same up to a constant.
 
+mod circular;
 mod fraction;
 mod hyperbolic;
 mod named;
@@ -24,7 +26,7 @@ mod writer;
 
 use liouville::case::Case;
 use liouville::claim::Claim;
-use liouville::formula::Type;
+use liouville::formula::{Formula, Type};
 use liouville::proof::MOST_POLYNOMIAL_WORK;
 use liouville::verdict::Verdict;
 
@@ -56,6 +58,15 @@ pub fn shorten(case: &Case, effort: &Effort, report: &mut SearchReport) -> Resul
         }
     }
     Ok(())
+}
+
+/// The shortest form of a formula, with its constant factors; `None` where that is not read.
+pub fn shortest(case: &Case, formula: &Formula) -> Option<Formula> {
+    let text = formula.text();
+    let mut reader = Reader::new(case);
+    let read = (text.len() <= LONGEST).then(|| reader.read(text))??;
+    let own = writer::written(&mut reader, &read, Constants::Kept)?;
+    case.formula(&own.text).ok()
 }
 
 /// A function of constant rate over an integral that divides it: that is simpler, and has a constant rate as well.

@@ -7,6 +7,7 @@ use num_bigint::BigInt;
 use num_integer::Integer;
 
 use super::super::orbit::parsed::{is_bracketed, is_modulus, is_name, joined, terms as terms_of};
+use super::circular;
 use super::fraction::Fraction;
 use super::hyperbolic;
 use super::reader::Reader;
@@ -48,7 +49,8 @@ pub fn written(reader: &mut Reader<'_>, own: &Fraction, constants: Constants) ->
         let (text, constant_text) = (format!("{sign}{own}"), "1".to_string());
         return Some(Written { text, constant: Fraction::one(), constant_text });
     }
-    let turned = hyperbolic::turned(reader, own);
+    let turned: Vec<Fraction> =
+        hyperbolic::turned(reader, own).into_iter().chain(circular::turned(reader, own)).collect();
     let all = std::iter::once(own).chain(&turned);
     let mut made: Vec<Written> = Vec::new();
     for own in all {
