@@ -39,8 +39,12 @@ impl Statement for SymmetryField {
         ]);
         let bracket = Layout::Fenced("[", Box::new(bracket), "]");
         let weight = self.weight.iter().map(|own| {
-            let multiple = [boxes.factor(own), Layout::Space, Layout::name("v", Type::VECTOR)];
-            Layout::equation(bracket.clone(), Layout::Row(multiple.to_vec()))
+            let factor = boxes.factor(own);
+            let multiple = match &factor {
+                Layout::Number(digits) if digits == "0" => factor,
+                _ => Layout::Row(vec![factor, Layout::Space, Layout::name("v", Type::VECTOR)]),
+            };
+            Layout::equation(bracket.clone(), multiple)
         });
         Some(Layout::listed([boxes.field(&self.components)].into_iter().chain(weight)))
     }

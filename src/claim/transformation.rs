@@ -276,8 +276,10 @@ impl Statement for Map {
             }
             rates[index] = Some(rate);
         }
+        let missing = names.iter().zip(&rates).filter(|(_, rate)| rate.is_none());
+        let missing: Vec<String> = missing.map(|(name, _)| format!("`{name}`")).collect();
         let Some(rates) = rates.into_iter().collect::<Option<Vec<Formula>>>() else {
-            let message = "`field` has no rate for one of the new variables".to_string();
+            let message = format!("`field` has no rate for {}", missing.join(", "));
             return Err(from.complaint("field", message, "give one for each name in `map`"));
         };
         let multiplier = from.formula("multiplier", Some(Type::Scalar))?;

@@ -53,6 +53,7 @@ mod point;
 mod poles;
 mod preimages;
 mod recorded;
+mod reversed;
 mod run;
 mod sampler;
 mod second_opinion;

@@ -114,6 +114,7 @@ pub fn search(
         })?;
         report.stage("the density 1", effort, |report| maps::volume(case, effort, report))?;
         report.stage("shorter formulas", effort, |report| {
+            recognised::rewrite(case, effort, report)?;
             measures::prefer(case, effort, report)?;
             written::shorten(case, effort, report)
         })?;

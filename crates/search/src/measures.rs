@@ -84,13 +84,14 @@ fn with_integrals(
     }
 }
 
-/// F, 1/F and 1/(1 + F²).
-fn factors(integral: &Formula) -> Result<[Formula; 3], FormulaError> {
+/// F, 1/F, 1/(1 + F²) and F²/(1 + F²).
+fn factors(integral: &Formula) -> Result<[Formula; 4], FormulaError> {
     let own = integral.bracketed();
     let one = Formula::number(1);
     let inverse = (&one / &own)?;
-    let square = (&one + &(&own * &own)?)?;
-    Ok([own, inverse, (&one / &square.bracketed())?])
+    let square = (&own * &own)?;
+    let sum = (&one + &square)?.bracketed();
+    Ok([own, inverse, (&one / &sum)?, (&square.bracketed() / &sum)?])
 }
 
 /// The density as a find, if it is proved.

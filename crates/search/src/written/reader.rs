@@ -16,6 +16,9 @@ use super::writer::{self, Constants};
 /// Largest depth of functions in functions.
 const DEEPEST: usize = 6;
 
+/// Functions f with f(−u) = −f(u).
+const ODD: [&str; 8] = ["atan", "asin", "sin", "tan", "sinh", "tanh", "asinh", "atanh"];
+
 /// Reads texts of a case.
 pub struct Reader<'c> {
     pub tokens: Tokens<'c>,
@@ -147,6 +150,14 @@ impl<'c> Reader<'c> {
             "|" => self.modulus(&read)?,
             _ => self.shorter(&read, argument)?,
         };
+        if ODD.contains(&name) {
+            let opposite = Fraction::number(&Rational::from(-1)).times(&read)?;
+            let turned = writer::written(self, &opposite, Constants::Kept)?.text;
+            if turned.chars().count() < written.chars().count() {
+                let own = self.token(&format!("{name}({turned})"))?;
+                return Fraction::number(&Rational::from(-1)).times(&own);
+            }
+        }
         let name = if name == "sqrt" { "√" } else { name };
         let called = match name {
             "√" if is_name(&written) => format!("√{written}"),
