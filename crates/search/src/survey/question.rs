@@ -151,6 +151,16 @@ impl TestedClaim {
         }
     }
 
+    /// The same with its rate, or its cofactor.
+    pub(crate) fn with_rate(mut self, case: &Case, what: &str, rate: &str) -> Self {
+        let paper = Typesetter(&case.model.vocabulary);
+        self.shown.statement = match what {
+            "rate" => paper.rate(self.formula(), rate),
+            _ => paper.zeros(self.formula(), rate),
+        };
+        self
+    }
+
     /// Whether the finding comes from a family, rather than from the case or the search.
     pub fn is_of_family(&self) -> bool {
         self.family != OWN && self.family != SEARCH
@@ -218,7 +228,18 @@ impl TestedClaim {
             return self.claim.name.clone();
         }
         match self.formula().char_indices().nth(LABEL) {
-            Some((end, _)) => format!("{}…", self.formula()[..end].trim_end()),
+            Some((end, _)) => {
+                let start = &self.formula()[..end];
+                let depth = |text: &str| {
+                    text.matches('(').count().saturating_sub(text.matches(')').count())
+                };
+                let whole = [" + ", " − "].iter().filter_map(|sign| start.rfind(sign));
+                let whole = whole.map(|place| &start[..place]).max_by_key(|own| own.len());
+                match whole.filter(|own| depth(own) == 0) {
+                    Some(own) => format!("{own} + …"),
+                    None => format!("{}…", start.trim_end()),
+                }
+            }
             None => self.formula().to_string(),
         }
     }

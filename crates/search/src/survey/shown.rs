@@ -43,6 +43,14 @@ impl Typesetter<'_> {
         Some(Layout::equation(Layout::rate(function), self.formula(rate)?))
     }
 
+    /// Typesets the zeros of a Darboux polynomial, with its cofactor κ.
+    pub fn zeros(&self, function: &str, cofactor: &str) -> Option<Layout> {
+        let zero = Layout::Number("0".to_string());
+        let zeros = Layout::equation(self.formula(function)?, zero);
+        let cofactor = Layout::equation(Layout::name("κ", Type::Scalar), self.formula(cofactor)?);
+        Some(Layout::listed([zeros, cofactor]))
+    }
+
     /// Typesets a vector field as a derivation.
     pub fn field(&self, components: &[Definition]) -> Option<Layout> {
         let read = |own: &Definition| Some((own.name.clone(), self.read(&own.formula)?));

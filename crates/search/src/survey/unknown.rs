@@ -125,5 +125,10 @@ pub fn of_search(case: &Case, found: Found) -> TestedClaim {
     let with: Vec<String> = with.collect();
     let remark = (!with.is_empty()).then(|| with.join("; "));
     let tested = TestedClaim { values, remark, ..TestedClaim::found(case, claim, names) };
-    if field.is_empty() { tested } else { tested.with_field(case, &field) }
+    let rate = found.with.iter().find(|(what, _)| matches!(*what, "rate" | "cofactor"));
+    match rate {
+        Some((what, rate)) => tested.with_rate(case, what, rate),
+        None if field.is_empty() => tested,
+        None => tested.with_field(case, &field),
+    }
 }
