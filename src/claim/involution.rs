@@ -66,7 +66,7 @@ impl Statement for Involution {
             None => false,
             Some(name) if name.trim() == LIOUVILLE => true,
             Some(name) => {
-                let message = format!("`{name}` is no theorem that can be claimed here");
+                let message = format!("`{name}` is not a theorem that can be claimed");
                 return Err(from.complaint(THEOREM, message, "write theorem = \"Liouville\""));
             }
         };

@@ -32,7 +32,9 @@ pub fn prefer(case: &Case, effort: &Effort, report: &mut SearchReport) -> Result
             (Some(DensitySign::Negative), _) => {
                 judged(case, effort, &opposite(case, &density)?)?.filter(has_no_minus)
             }
-            (_, false) => with_integrals(case, effort, report, &density)?,
+            (_, false) if !written::has_small_poles(case, &density) => {
+                with_integrals(case, effort, report, &density)?
+            }
             _ => None,
         };
         let Some(better) = better else { continue };
@@ -72,7 +74,10 @@ fn with_integrals(
             let product = written::shortest(case, &product).unwrap_or(product);
             let Some(own) = judged(case, effort, &product)? else { continue };
             let is_shorter = |other: &Found| own.formula.len() < other.formula.len();
-            if is_of_measure(&own.evidence) && found.as_ref().is_none_or(is_shorter) {
+            let has_one_sign = own.evidence.sign != Some(DensitySign::Changes);
+            let is_better = is_of_measure(&own.evidence)
+                || has_one_sign && written::has_small_poles(case, &product);
+            if is_better && found.as_ref().is_none_or(is_shorter) {
                 found = Some(own);
             }
         }

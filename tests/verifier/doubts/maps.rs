@@ -180,9 +180,8 @@ fn a_map_with_a_reversor_is_one_to_one_where_its_equation_has_values() {
     assert_eq!(density(state, verlet, "p = '−p'"), (Verdict::Proved, String::new()));
     // On 2..3 the map is two to one, and the equation of the reversor has no value there.
     let sign = "sign(3/2 − x)";
-    let folded = format!(
-        "x = '(1 + {sign})/2*(1 − x) + (1 − {sign})/2*(−1 − |x − 5/2|) + 0*√x'\ny = 'y'\n"
-    );
+    let folded =
+        format!("x = '(1 + {sign})/2*(1 − x) + (1 − {sign})/2*(−1 − |x − 5/2|) + 0*√x'\ny = 'y'\n");
     let (verdict, remark) = density("x = '0.1..3'\ny = '-1..1'\n", &folded, "y = '−y'");
     assert!(verdict != Verdict::Proved || remark.contains("not proved"), "{verdict:?}: {remark}");
 }

@@ -74,6 +74,7 @@ mod map_densities;
 mod map_fractions;
 mod map_integrals;
 mod map_products;
+mod map_rows;
 mod map_weighted;
 pub mod monomials;
 pub mod no_others;

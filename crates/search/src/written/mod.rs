@@ -11,6 +11,7 @@
 //! named      expressions of the file that occur as factors
 //! squares    sums of squares of differences
 //! square_sums squares of sums of monomials, and what is left
+//! masses     the determinant of the masses on constraints
 //! shifts     additive constants that shorten an integral
 //! ```
 //!
@@ -19,6 +20,7 @@
 mod circular;
 mod fraction;
 mod hyperbolic;
+mod masses;
 mod named;
 mod products;
 mod reader;
@@ -31,6 +33,7 @@ mod writer;
 use liouville::case::Case;
 use liouville::claim::Claim;
 use liouville::formula::{Formula, Type};
+use liouville::number::rational::Rational;
 use liouville::proof::{MOST_POLYNOMIAL_WORK, Polynomial};
 use liouville::verdict::Verdict;
 
@@ -39,6 +42,7 @@ use super::leading::replaced;
 use super::orbit::{CONSTANT_RATE, DARBOUX, FURTHER_INTEGRAL};
 use super::{Effort, Found, SearchError, SearchReport};
 use fraction::Fraction;
+pub use masses::densities as mass_densities;
 use reader::Reader;
 use writer::{Constants, Written};
 
@@ -91,6 +95,22 @@ fn darboux_polynomials(reader: &mut Reader<'_>, report: &SearchReport) -> Vec<Po
         .filter(|own| own.is_polynomial() && own.above.number().is_none())
         .map(|own| own.above)
         .collect()
+}
+
+/// Whether a fraction is infinite at most where several squares vanish together, as 1/(x² + y²).
+pub fn has_small_poles(case: &Case, formula: &Formula) -> bool {
+    let text = formula.text();
+    let mut reader = Reader::new(case);
+    let Some(read) = (text.len() <= LONGEST).then(|| reader.read(text)).flatten() else {
+        return false;
+    };
+    let is_sum = |own: &Polynomial| {
+        let is_square = |(value, powers): (&Rational, &[(u32, u32)])| {
+            !value.is_negative() && powers.iter().all(|(_, power)| power % 2 == 0)
+        };
+        own.size() > 1 && own.terms().all(is_square)
+    };
+    read.below.factors().iter().all(is_sum)
 }
 
 /// A function of constant rate over an integral that divides it: that is simpler, and has a constant rate as well.

@@ -79,14 +79,6 @@ impl NamedExpressions {
             }
             _ => None,
         };
-        // A Hamiltonian that is one root takes its name wherever the root occurs.
-        if let Some(own) = energy.as_ref().filter(|own| own.below.number().is_some())
-            && let Some((value, [(token, 1)])) = own.above.as_term()
-            && *value == Rational::from(1)
-            && !is_name(reader.tokens.text(*token))
-        {
-            reader.tokens.show(*token, ENERGY);
-        }
         Self { all, has_hyperbolic, energy }
     }
 
@@ -109,6 +101,20 @@ impl NamedExpressions {
     /// Whether the file contains a hyperbolic function.
     pub fn has_hyperbolic(&self) -> bool {
         self.has_hyperbolic
+    }
+}
+
+/// Gives a Hamiltonian that is one root its name wherever the root occurs.
+pub fn show_energy(reader: &mut Reader<'_>) {
+    let case = reader.case();
+    let System::Hamiltonian(own) = &case.model.system else { return };
+    let read = reader.read(own.function.text()).filter(|_| case.formula(ENERGY).is_ok());
+    let Some(read) = read.filter(Fraction::is_polynomial) else { return };
+    if let Some((value, [(token, 1)])) = read.above.as_term()
+        && *value == Rational::from(1)
+        && !is_name(reader.tokens.text(*token))
+    {
+        reader.tokens.show(*token, ENERGY);
     }
 }
 

@@ -59,8 +59,21 @@ pub fn written(reader: &mut Reader<'_>, own: &Fraction, constants: Constants) ->
             made.extend(product(reader, own, constants, is_sum));
         }
         made.extend(with_square(reader, own, constants));
+        made.extend(sum_of_terms(reader, own, constants));
     }
     made.into_iter().min_by_key(|own| own.text.chars().count())
+}
+
+/// Writes a polynomial term by term, each with its number.
+fn sum_of_terms(reader: &Reader<'_>, own: &Fraction, constants: Constants) -> Option<Written> {
+    let scale = own.below.number()?.recip()?;
+    let is_wanted = constants == Constants::Kept && !own.above.is_zero();
+    let (constant, constant_text) = (Fraction::one(), "1".to_string());
+    is_wanted.then(|| Written {
+        text: with_sums_first(plain_terms(reader, &own.above.scaled(&scale))),
+        constant,
+        constant_text,
+    })
 }
 
 /// Writes a fraction as the square of a sum and what is left.
@@ -202,7 +215,7 @@ fn turned(factors: &mut [(String, u32)], is_single: bool) -> Option<bool> {
 }
 
 fn negative(text: &str, factors: usize) -> String {
-    match factors <= 1 && text.contains([' ']) {
+    match factors <= 1 && is_sum(text) {
         true => format!("−({text})"),
         false => format!("−{text}"),
     }
