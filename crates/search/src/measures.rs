@@ -89,14 +89,16 @@ fn with_integrals(
     }
 }
 
-/// F, 1/F, 1/(1 + F²) and F²/(1 + F²).
-fn factors(integral: &Formula) -> Result<[Formula; 4], FormulaError> {
+/// F, 1/F, 1/(1 + F²), F/(1 + F²) and F²/(1 + F²).
+fn factors(integral: &Formula) -> Result<[Formula; 5], FormulaError> {
     let own = integral.bracketed();
     let one = Formula::number(1);
     let inverse = (&one / &own)?;
     let square = (&own * &own)?;
     let sum = (&one + &square)?.bracketed();
-    Ok([own, inverse, (&one / &sum)?, (&square.bracketed() / &sum)?])
+    let fractions = [(&one / &sum)?, (&own / &sum)?, (&square.bracketed() / &sum)?];
+    let [first, second, third] = fractions;
+    Ok([own, inverse, first, second, third])
 }
 
 /// The density as a find, if it is proved.

@@ -133,8 +133,8 @@ pub fn conditions(
                 progress("conditions for a density of the configuration");
                 by_values(case, None, effort, report)?;
             }
-            volumes(case, effort, report, progress)?;
-            velocities::conditions(case, effort, report, progress)
+            velocities::conditions(case, effort, report, progress)?;
+            volumes(case, effort, report, progress)
         }
     }
 }
@@ -155,10 +155,18 @@ fn volumes(
     let Ok(asked) = case.with_claims(&[Claim::density(one()).named(VOLUMES)]) else {
         return Ok(());
     };
-    match asked.claims.iter().find(|claim| claim.name == VOLUMES) {
-        Some(claim) => by_values(&asked, Some(claim), effort, report),
-        None => Ok(()),
-    }
+    let Some(claim) = asked.claims.iter().find(|claim| claim.name == VOLUMES) else {
+        return Ok(());
+    };
+    let before = report.conditions.len();
+    by_values(&asked, Some(claim), effort, report)?;
+    // That there are none says nothing of other densities.
+    let mut place = 0;
+    report.conditions.retain(|own| {
+        place += 1;
+        place <= before || !own.equations.is_empty()
+    });
+    Ok(())
 }
 
 /// Finds the conditions for one claim, or for the criterion, for each combination of listed values.

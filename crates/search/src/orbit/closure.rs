@@ -272,9 +272,9 @@ impl Closure<'_, '_> {
     /// Whether a function is one of a single known integral, as e^(−H) is.
     fn is_of_one(&self, formula: &Formula) -> Result<bool, SearchError> {
         let all: Vec<usize> = (0..self.setting.dimension()).collect();
-        for known in self.independent.formulas() {
+        for known in &self.all {
             let mut alone = self.independent.none();
-            alone.add(known.clone(), None, &all);
+            alone.add(known.formula.clone(), None, &all);
             if !self.is_independent(formula, &alone)? {
                 return Ok(true);
             }
