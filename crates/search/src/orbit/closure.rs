@@ -82,8 +82,13 @@ pub fn close(case: &Case, effort: &Effort, report: &mut SearchReport) -> Result<
         return Ok(());
     };
     let independent = IndependentIntegrals::of(&setting, report)?;
-    let mut closure =
-        Closure { setting: &setting, algebra: &algebra, independent, all: Vec::new() };
+    let mut closure = Closure {
+        setting: &setting,
+        algebra: &algebra,
+        known: &known,
+        independent,
+        all: Vec::new(),
+    };
     let mut dependent = Vec::new();
     for (place, polynomial) in &algebra.integrals {
         match known.get(*place) {
@@ -125,6 +130,8 @@ pub fn close(case: &Case, effort: &Effort, report: &mut SearchReport) -> Result<
 struct Closure<'s, 'c> {
     setting: &'s OrbitSetting<'c>,
     algebra: &'s IntegralAlgebra,
+    /// Integrals known from the start, in the names of the case.
+    known: &'s [Formula],
     independent: IndependentIntegrals,
     all: Vec<OwnIntegral>,
 }
@@ -271,11 +278,14 @@ impl Closure<'_, '_> {
 
     /// Whether a function is one of a single known integral, as e^(−H) is.
     fn is_of_one(&self, formula: &Formula) -> Result<bool, SearchError> {
-        let all: Vec<usize> = (0..self.setting.dimension()).collect();
-        for known in &self.all {
-            let mut alone = self.independent.none();
-            alone.add(known.formula.clone(), None, &all);
-            if !self.is_independent(formula, &alone)? {
+        let Some(formula) = claims::written_integral(self.setting, formula) else {
+            return Ok(false);
+        };
+        let case = claims::judged_case(self.setting);
+        for known in self.known {
+            let claim = Claim::independent(vec![known.clone(), formula.clone()]);
+            let judged = judged_alone(case, claim, self.setting.effort)?;
+            if judged.is_some_and(|own| own.verdict == Verdict::Refuted) {
                 return Ok(true);
             }
         }
