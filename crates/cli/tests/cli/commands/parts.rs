@@ -302,7 +302,7 @@ fn merge_takes_options_of_the_report_of_its_job() {
     fails("merge states -- extra.toml", "the report has no option extra.toml");
     fails("merge states -- --json extra.toml", "the report has no option extra.toml");
     fails("merge states -- --dark", "the report has no option --dark");
-    fails("merge bodies -- --colour class", "--colour is no option of the report");
+    fails("merge bodies -- --colour class", "the report has no option --colour");
     fails("merge bodies -- --format", "--format has no value");
     // the parts were computed with --json
     let mut merged = liouville(&["merge", "bodies", "--", "--format", "csv"]);
