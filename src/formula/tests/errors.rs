@@ -237,7 +237,8 @@ fn forms_with_indices_say_what_is_missing() {
     assert_eq!(large.message(), "this has too many terms when expanded", "a limit");
     let endless = refuse("sum(i, 1..2000000000, j, 1..0, x)");
     assert_eq!(endless.message(), "this has too many terms when expanded", "of nothing, too");
-    let cases = Some("`if(i = j, a, b)` compares indices; values have `max`, `min`, `sign` and `|x|`");
+    let cases =
+        Some("`if(i = j, a, b)` compares indices; values have `max`, `min`, `sign` and `|x|`");
     error("if(x = 1, x, y)", "`x` is not a whole number that the file fixes", "x", cases);
     let equation = Some(
         "a formula is a value, not an equation; values are compared by `max`, `min`, `sign` and `|x|`",

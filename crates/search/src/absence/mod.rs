@@ -389,13 +389,3 @@ fn generated(
         }
     })
 }
-
-/// Says that all integrals that are counted are known.
-fn all_known(dimension: usize) -> String {
-    match dimension {
-        1 => "no integrals but constants".to_string(),
-        more => format!(
-            "{more} linearly independent integrals at most, constants among them: all known"
-        ),
-    }
-}

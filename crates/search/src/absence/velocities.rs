@@ -104,7 +104,7 @@ fn no_integral(
     if known.dimension == dimension {
         return Ok(AbsenceOutcome::Excluded {
             theorem: asked.theorem(&generated(asked, &class, &known.formulas)?),
-            counted: super::all_known(dimension),
+            counted: super::reports::all_known(dimension),
         });
     }
     let parts: [Part<'_>; 4] = [
