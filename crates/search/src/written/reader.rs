@@ -1,7 +1,7 @@
 //! Texts of formulas as fractions.
 
 use liouville::case::Case;
-use liouville::formula::Type;
+use liouville::formula::{Type, canonical_name};
 use liouville::mechanics::Meaning;
 use liouville::number::rational::Rational;
 use liouville::proof::Polynomial;
@@ -251,7 +251,9 @@ impl<'c> Reader<'c> {
     }
 
     fn token(&mut self, text: &str) -> Option<Fraction> {
-        self.tokens.of(text).map(Fraction::variable)
+        // A file may write phi for φ.
+        let canonical = canonical_name(text).filter(|_| self.expands);
+        self.tokens.of(canonical.as_deref().unwrap_or(text)).map(Fraction::variable)
     }
 }
 

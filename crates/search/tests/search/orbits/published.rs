@@ -116,3 +116,17 @@ fn odd_functions_and_factors_of_rates_lose_their_signs() {
     let report = searched(&field("", &["−7/2*y", "7/2*x", "0*z"]), &Effort::default());
     assert!(rates(&report).contains(&("atan(x/y)", "−7/2")), "{:?}", rates(&report));
 }
+
+#[test]
+fn the_masses_on_constraints_are_a_density() {
+    // A sleigh with a mass on a spring across its blade.
+    let text = "title = 'sleigh'\nsystem = 'nonholonomic'\n[parameters]\nM = '1..2'\nm = '0.2..0.5'\n\
+                J = '0.5..1'\n[state]\nx = '-2..2'\ny = '-2..2'\nphi = '-3..3'\ns = '-1..1'\n\
+                \"x'\" = '-2..2'\n\"y'\" = '-2..2'\n\"phi'\" = '-2..2'\n\"s'\" = '-1..1'\n[let]\n\
+                U = \"x' - s'*sin(phi) - s*cos(phi)*phi'\"\nV = \"y' + s'*cos(phi) - s*sin(phi)*phi'\"\n\
+                [lagrangian]\nkinetic = \"(M*(x'^2 + y'^2) + J*phi'^2 + m*(U^2 + V^2))/2\"\n\
+                potential = 's^2'\nconstraints = [\"y'*cos(phi) = x'*sin(phi)\"]\n";
+    let report = searched(text, &Effort { degree: 1, ..Effort::default() });
+    let all = told(&report, "density");
+    assert!(all.len() == 1 && all[0].contains("M*m*s²"), "{all:?}: {:?}", report.found);
+}
