@@ -6,7 +6,10 @@ use super::section::CaseTable;
 use super::{Expect, MotionClaim, PlacedClaim, SectionPlan, TABLE_ROWS};
 use crate::claim::absence::{ABSENCES, Absence};
 use crate::claim::motion::{Beginning, MOTIONS, MotionKind};
-use crate::claim::{ClaimKind, LevelSubset, Reader, STATEMENTS, ValueShape};
+use crate::claim::{
+    Bracket, Casimir, ClaimKind, Compatible, DensityInVariables, Hamiltonian, JacobiIdentity,
+    LevelSubset, Reader, STATEMENTS, Statement, ValueShape,
+};
 use crate::mechanics::Model;
 
 /// Keys common to all claims.
@@ -67,6 +70,22 @@ pub struct ClaimContext<'c> {
     pub plan: Option<&'c SectionPlan>,
     /// Default source of claims.
     pub source: &'c str,
+}
+
+/// Statements about brackets.
+const OF_BRACKETS: [&str; 6] = [
+    Hamiltonian::NAME,
+    Casimir::NAME,
+    Bracket::NAME,
+    JacobiIdentity::NAME,
+    Compatible::NAME,
+    DensityInVariables::NAME,
+];
+
+/// Whether the claim is about a bracket whose table has mistakes, or is yet to be read, in a file with mistakes.
+pub fn waits_for_bracket(section: &CaseTable<'_>, context: &ClaimContext<'_>) -> bool {
+    let is_of_bracket = || OF_BRACKETS.iter().any(|key| section.value(key).is_some());
+    !context.is_whole && context.model.variables.is_none() && is_of_bracket()
 }
 
 /// Reads one claim; `taken` holds the names of those before it.

@@ -303,7 +303,7 @@ fn of_kind(expected: Type, found: Type) -> String {
         (Type::Vector(_), Type::Matrix(..)) => "write a vector, such as `A*v`",
         (Type::Matrix(..), Type::Scalar) => "write a matrix, such as `2*E` or `diag(1, 2, 3)`",
         (Type::Matrix(..), Type::Vector(_)) => {
-            "write a matrix, such as `diag(1, 2, 3)` or `hat(v)`"
+            "write a matrix, such as `hat(v)` of a vector v, or `diag(1, 2, 3)`"
         }
         _ => "write it in that size",
     };

@@ -81,7 +81,15 @@ impl Key {
         };
         let ranges = ranges_of(primed.unwrap_or(ranges).trim_start(), names)?;
         let sizes = match variables[index].kind {
-            Type::Scalar => return Err(wrong(format!("`{name}` has no components"), FORM)),
+            Type::Scalar => {
+                let remedy = match inside.contains('n') {
+                    true => {
+                        "write x = \"…\" in [map] for the image of x, or \"x'\" = \"…\" in [field] for its rate"
+                    }
+                    false => FORM,
+                };
+                return Err(wrong(format!("`{name}` has no components"), remedy));
+            }
             Type::Vector(length) => vec![length],
             Type::Matrix(rows, columns) => vec![rows, columns],
         };

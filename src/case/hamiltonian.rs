@@ -82,6 +82,13 @@ fn pairs(section: &CaseTable<'_>, state: &[Variable], blocks: &mut Blocks) -> Re
         return Err(wrong(value, "`pairs` is a list of pairs".to_string()));
     };
     for item in list {
+        let names: Vec<&str> = list.iter().filter_map(|own| own.get_ref().as_str()).collect();
+        if let ([q, p], 2) = (names.as_slice(), list.len()) {
+            let (message, remedy) = ("this is not a pair".to_string(), PAIRS.to_string());
+            let own = format!("pairs = [[\"{q}\",\"{p}\"]]");
+            let remedy = remedy.replace("pairs = [[\"q\",\"p\"]]", &own);
+            return Err(Mistake::at(value.span(), Problem::Other { message, remedy }));
+        }
         let both = match item.get_ref() {
             DeValue::Array(both) if both.len() == 2 => both,
             _ => return Err(wrong(item, "this is not a pair".to_string())),

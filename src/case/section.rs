@@ -356,6 +356,7 @@ fn table_of(key: &str) -> String {
         "level" => "equations = [\"x² + y² = 1\"]",
         "hamiltonian" => "function = \"…\" and pairs = [[\"q\", \"p\"]]",
         "lagrangian" => "kinetic = \"…\" and potential = \"…\"",
+        "lax" => return "write lax = { L = \"…\", A = \"…\" } for L' = L*A − A*L".to_string(),
         _ => return format!("write {key} = {{ x = \"…\" }}"),
     };
     format!("write a line [{key}], and below it {lines}")

@@ -94,6 +94,16 @@ impl State {
 
 type Entry<'a> = (&'a Spanned<Cow<'a, str>>, &'a Spanned<DeValue<'a>>);
 
+/// Advice for a range that is written as an interval, `[-1, 1]`.
+fn range_meant(text: &str) -> Option<String> {
+    let is_bracket = |letter: char| matches!(letter, '[' | ']' | '(' | ')');
+    let inner = text.trim().strip_prefix(is_bracket)?.strip_suffix(is_bracket)?;
+    let (low, high) = inner.split_once([',', ';'])?;
+    let is_number = |own: &str| own.trim().replace('−', "-").parse::<f64>().is_ok();
+    let is_range = is_number(low) && is_number(high);
+    is_range.then(|| format!("write \"{}..{}\"", low.trim(), high.trim()))
+}
+
 /// Type of a state variable, the draws of its components, and the shape of the matrix made of them.
 fn variable(
     section: &CaseTable<'_>,
@@ -108,8 +118,12 @@ fn variable(
     }
     let remedy = "write \"-2..2\", \"vector(-1..1)\", \"vector(5, -1..1)\", \"matrix(4, 4, -1..1)\" or \
          \"skew(4, -1..1)\"";
+    let remedy = match value.get_ref() {
+        DeValue::String(text) => range_meant(text).unwrap_or_else(|| remedy.to_string()),
+        _ => remedy.to_string(),
+    };
     let wrong = |message: String| {
-        Mistake::at(value.span(), Problem::Other { message, remedy: remedy.to_string() })
+        Mistake::at(value.span(), Problem::Other { message, remedy: remedy.clone() })
     };
     let given = given(value, vocabulary).map_err(|refusal| match refusal {
         Refusal::Message(message) => wrong(message),

@@ -74,6 +74,8 @@ impl ReadClaims {
                 section.keep(claims::read_motion(section, context, (names, &self.claims)))?;
             name = claim.name.clone();
             self.motions.push(claim);
+        } else if claims::waits_for_bracket(section, context) {
+            return None;
         } else {
             let claim = section.keep(claims::read(section, context, names))?;
             name = claim.name.clone();

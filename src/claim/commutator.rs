@@ -1,10 +1,11 @@
 //! Commutators of vector fields: [u,w] = (u·∇)w − (w·∇)u = z, component by component.
 
+use super::boxes::Boxes;
 use super::components::Components;
 use super::{
     Condition, Reader, ResidualContext, Statement, ValueShape, difference, quadrature_defects,
 };
-use crate::formula::Formula;
+use crate::formula::{Formula, Layout};
 use crate::graph::Expr;
 use crate::mechanics::Phase;
 use crate::mechanics::calculus::DualPoint;
@@ -62,6 +63,15 @@ impl Statement for Commutator {
             .chain(&self.value)
             .flat_map(Components::formulas)
             .collect()
+    }
+
+    fn layout(&self, boxes: Boxes<'_>) -> Option<Layout> {
+        let [of, with] = [&self.of, &self.with].map(|own| boxes.field(own));
+        let pair = Layout::listed([of, with]);
+        let bracket = Layout::Fenced("[", Box::new(pair), "]");
+        let zero = || Layout::Number("0".to_string());
+        let value = self.value.as_ref().map_or_else(zero, |own| boxes.field(own));
+        Some(Layout::equation(bracket, value))
     }
 
     fn text(&self) -> Option<String> {

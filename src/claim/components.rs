@@ -3,7 +3,7 @@
 use super::Reader;
 use crate::formula::Formula;
 use crate::graph::Expr;
-use crate::mechanics::{Meaning, Phase, Vocabulary};
+use crate::mechanics::{Meaning, Model, Phase, Vocabulary};
 use crate::scalar::Scalar;
 
 /// One formula for each state variable; 0 where none is given.
@@ -64,6 +64,12 @@ impl Components {
     /// Iterates over the given formulas.
     pub fn formulas(&self) -> impl Iterator<Item = &Formula> {
         self.variables.iter().flatten()
+    }
+
+    /// Iterates over the given formulas with the names of their variables.
+    pub fn named<'s>(&'s self, model: &'s Model) -> impl Iterator<Item = (&'s str, &'s Formula)> {
+        let pairs = model.state.iter().zip(&self.variables);
+        pairs.filter_map(|(own, formula)| Some((own.name.as_str(), formula.as_ref()?)))
     }
 
     /// Records the components as written.

@@ -2,13 +2,14 @@
 
 use num_dual::Dual;
 
+use super::boxes::Boxes;
 use super::clock::never_rests;
 use super::components::Components;
 use super::elsewhere::{inside, system_at_point};
 use super::point::read_point;
 use super::statement::Objection;
 use super::{ComplexFormula, Reader, Statement, ValueShape, difference};
-use crate::formula::{Formula, Type};
+use crate::formula::{Formula, Layout, Type};
 use crate::graph::{Evaluator, Expr, Tape, record};
 use crate::mechanics::calculus::DualPoint;
 use crate::mechanics::elimination::characteristic_polynomial;
@@ -59,6 +60,26 @@ impl Statement for FixedPoint {
         Ok(Self { point, spectrum, polynomial: read_polynomial(from, has_rests)? })
     }
 
+    fn layout(&self, boxes: Boxes<'_>) -> Option<Layout> {
+        if self.polynomial.is_some() {
+            return None;
+        }
+        let value = |(real, imaginary): &ComplexFormula| match imaginary {
+            None => boxes.formula(real),
+            Some(imaginary) => Layout::Row(vec![
+                boxes.formula(real),
+                Layout::Sign("±"),
+                boxes.product(imaginary),
+                Layout::Space,
+                Layout::name("i", Type::Scalar),
+            ]),
+        };
+        let spectrum = self.spectrum.as_ref().map(|own| {
+            Layout::equation(Layout::name("λ", Type::Scalar), Layout::listed(own.iter().map(value)))
+        });
+        Some(Layout::listed([boxes.point(&self.point)].into_iter().chain(spectrum)))
+    }
+
     fn particulars(&self) -> Option<String> {
         let place = match self.point.text.is_empty() {
             true => "at 0".to_string(),
@@ -66,7 +87,9 @@ impl Statement for FixedPoint {
         };
         let value = |(real, imaginary): &ComplexFormula| match imaginary {
             None => real.text().trim().to_string(),
-            Some(imaginary) => format!("{} ± ({})i", real.text().trim(), imaginary.text().trim()),
+            Some(imaginary) => {
+                format!("{} ± {}*i", real.text().trim(), imaginary.as_factor().text().trim())
+            }
         };
         let spectrum = self.spectrum.as_ref().map(|own| {
             format!("spectrum {}", own.iter().map(value).collect::<Vec<_>>().join(", "))

@@ -2,9 +2,10 @@
 
 use num_dual::DualNum;
 
+use super::boxes::Boxes;
 use super::statement::{OfMotions, open_constant};
 use super::{Condition, Need, Reader, ResidualContext, Statement, difference};
-use crate::formula::Formula;
+use crate::formula::{Formula, Layout, Type};
 use crate::graph::{Expr, squares_of_terms};
 use crate::mechanics::calculus::DualPoint;
 use crate::mechanics::elimination::dot;
@@ -55,6 +56,10 @@ impl Statement for Identity {
         Some(format!("{} = {}", self.left.text().trim(), self.right.text().trim()))
     }
 
+    fn layout(&self, boxes: Boxes<'_>) -> Option<Layout> {
+        Some(Layout::equation(boxes.formula(&self.left), boxes.formula(&self.right)))
+    }
+
     fn about(&self, right: Formula) -> Option<Self> {
         Some(Self { right, ..self.clone() })
     }
@@ -92,6 +97,10 @@ impl Statement for Rate {
         Some(format!("({})' = {}", self.function.text().trim(), self.rate.text().trim()))
     }
 
+    fn layout(&self, boxes: Boxes<'_>) -> Option<Layout> {
+        Some(Layout::equation(boxes.rate(&self.function), boxes.formula(&self.rate)))
+    }
+
     fn about(&self, rate: Formula) -> Option<Self> {
         Some(Self { rate, ..self.clone() })
     }
@@ -126,7 +135,7 @@ impl Statement for Relation {
     const OF_MAPS: bool = true;
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
-        let function = from.required(Self::NAME, Some(crate::formula::Type::Scalar))?;
+        let function = from.required(Self::NAME, Some(Type::Scalar))?;
         let cofactor = from.required("cofactor", Some(function.value_type()))?;
         Ok(Self { function, cofactor })
     }
@@ -145,6 +154,14 @@ impl Statement for Relation {
 
     fn particulars(&self) -> Option<String> {
         Some(format!("cofactor {}", self.cofactor.text().trim()))
+    }
+
+    fn layout(&self, boxes: Boxes<'_>) -> Option<Layout> {
+        let zero = Layout::Number("0".to_string());
+        let relation = Layout::equation(boxes.formula(&self.function), zero);
+        let cofactor = Layout::name("κ", Type::Scalar);
+        let cofactor = Layout::equation(cofactor, boxes.formula(&self.cofactor));
+        Some(Layout::listed([relation, cofactor]))
     }
 
     fn about(&self, cofactor: Formula) -> Option<Self> {

@@ -1,7 +1,8 @@
 //! Functional independence, by the gradients of some functions and of the level functions.
 
+use super::boxes::Boxes;
 use super::{Reader, Statement, ValueShape};
-use crate::formula::Formula;
+use crate::formula::{Formula, Layout};
 use crate::mechanics::Model;
 use crate::mechanics::calculus::DualPoint;
 use crate::mechanics::elimination::gram_determinant;
@@ -32,6 +33,10 @@ impl Statement for Independent {
 
     fn text(&self) -> Option<String> {
         Some(self.0.iter().map(|own| own.text().trim()).collect::<Vec<_>>().join(", "))
+    }
+
+    fn layout(&self, boxes: Boxes<'_>) -> Option<Layout> {
+        Some(boxes.listed(&self.0))
     }
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {

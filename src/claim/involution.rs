@@ -8,13 +8,14 @@
 //! `theorem = "Liouville"` the claim is also that the hypotheses of Liouville's theorem hold:
 //! docs/soundness.md, "Liouville's theorem".
 
+use super::boxes::Boxes;
 use super::jacobi_identity::jacobi_defects;
 use super::of_bracket::{
     CHOICE, bracket_of, images_as_written, tensor_slopes, they_vary, turned, written,
 };
 use super::statement::Objection;
 use super::{Condition, Jets, Need, Reader, Statement, ValueShape, clock};
-use crate::formula::Formula;
+use crate::formula::{Formula, Layout};
 use crate::graph::Expr;
 use crate::mechanics::calculus::DualPoint;
 use crate::mechanics::elimination::dot;
@@ -65,7 +66,7 @@ impl Statement for Involution {
             None => false,
             Some(name) if name.trim() == LIOUVILLE => true,
             Some(name) => {
-                let message = format!("`{name}` is no theorem that can be claimed here");
+                let message = format!("`{name}` is not a theorem that can be claimed");
                 return Err(from.complaint(THEOREM, message, "write theorem = \"Liouville\""));
             }
         };
@@ -80,6 +81,11 @@ impl Statement for Involution {
     fn text(&self) -> Option<String> {
         let all: Vec<&str> = self.functions.iter().map(|own| own.text().trim()).collect();
         Some(all.join(", "))
+    }
+
+    fn layout(&self, boxes: Boxes<'_>) -> Option<Layout> {
+        // In the names of other variables, a formula is not one of the case.
+        matches!(self.bracket, MotionBracket::OfMomenta).then(|| boxes.listed(&self.functions))
     }
 
     fn formulas(&self) -> Vec<&Formula> {

@@ -3,11 +3,12 @@
 use num_dual::Dual;
 use num_traits::{One, Zero};
 
+use super::boxes::Boxes;
 use super::elsewhere::{inside, one_antiderivative};
 use super::expansion::{Stated, defects, expansions, sides};
 use super::statement::{OfMotions, open_constant};
 use super::{Condition, Reader, ResidualContext, Statement};
-use crate::formula::{Formula, Type, Value};
+use crate::formula::{Formula, Layout, Type, Value};
 use crate::graph::{Expansion, Expr, Side};
 use crate::mechanics::calculus::DualPoint;
 use crate::mechanics::{LevelFunction, Meaning, Model, ParameterOrigin, Phase};
@@ -122,6 +123,11 @@ impl Statement for Limit {
 
     fn text(&self) -> Option<String> {
         Some(format!("{} → {}", self.function.text().trim(), self.value.text().trim()))
+    }
+
+    fn layout(&self, boxes: Boxes<'_>) -> Option<Layout> {
+        let (function, value) = (boxes.formula(&self.function), boxes.formula(&self.value));
+        Some(Layout::Row(vec![function, Layout::Sign("→"), value]))
     }
 
     fn about(&self, value: Formula) -> Option<Self> {

@@ -3,8 +3,9 @@
 //! The inequality x ≤ 0 is the equation x + |x| = 0. It is proved if intervals show that x is positive
 //! at no state, and refuted by a state at which x is positive.
 
+use super::boxes::Boxes;
 use super::{Condition, Excess, Objection, Reader, ResidualContext, Statement};
-use crate::formula::{Formula, Type};
+use crate::formula::{Formula, Layout, Type};
 use crate::graph::Expr;
 use crate::mechanics::Model;
 use crate::mechanics::calculus::DualPoint;
@@ -97,6 +98,16 @@ impl Statement for Lyapunov {
             Some(rate) => format!("({function})' = {} ≤ 0", rate.text().trim()),
             None => format!("({function})' ≤ 0"),
         })
+    }
+
+    fn layout(&self, boxes: Boxes<'_>) -> Option<Layout> {
+        if boxes.0.system.is_map() {
+            return None;
+        }
+        let mut row = vec![boxes.rate(&self.function)];
+        row.extend(self.rate.iter().flat_map(|own| [Layout::Sign("="), boxes.formula(own)]));
+        row.extend([Layout::Sign("≤"), Layout::Number("0".to_string())]);
+        Some(Layout::Row(row))
     }
 
     fn objection(&self, model: &Model) -> Option<Objection> {

@@ -5,6 +5,7 @@
 
 pub mod absence;
 mod assumption;
+mod boxes;
 mod bracket;
 mod casimir;
 mod clock;
@@ -50,9 +51,10 @@ mod transformation;
 mod value;
 mod volume;
 
+use boxes::Boxes;
 use elsewhere::{inverse_at, written_at};
 
-use crate::formula::Formula;
+use crate::formula::{Formula, Layout};
 use crate::graph::Expr;
 use crate::mechanics::calculus::DualPoint;
 use crate::mechanics::{Model, NewVariables};
@@ -218,6 +220,11 @@ impl ClaimKind {
     pub fn text(&self) -> Option<String> {
         let whole = of_each!(self, statement => statement.text());
         whole.or_else(|| self.formula().map(|formula| formula.text().to_string()))
+    }
+
+    /// Sets the whole statement; `None` of kinds that are not set.
+    pub fn layout(&self, model: &Model) -> Option<Layout> {
+        of_each!(self, statement => statement.layout(Boxes(model)))
     }
 
     /// Returns all formulas in the names of the case.

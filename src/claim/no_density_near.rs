@@ -8,12 +8,14 @@
 //! μ(Φ(B)), and Φ(B) has at most q times the volume of B, where q is near |det DΦ(x₀)|. So |det DΦ(x₀)| < 1
 //! excludes every ρ that is positive at x₀; |det DΦ(x₀)| > 1 does not, where Φ is not one-to-one.
 
+use super::boxes::Boxes;
 use super::clock::never_rests;
 use super::components::Components;
 use super::elsewhere::{inside, system_at_point};
 use super::point::read_point;
 use super::statement::Objection;
 use super::{Condition, Need, Reader, ResidualContext, Statement, ValueShape, difference};
+use crate::formula::Layout;
 use crate::graph::Expr;
 use crate::mechanics::Model;
 use crate::mechanics::calculus::DualPoint;
@@ -51,7 +53,14 @@ impl Statement for NoDensityNear {
     }
 
     fn text(&self) -> Option<String> {
-        Some(format!("no density near ({})", self.0.text))
+        Some(match self.0.text.as_str() {
+            "" => "no density near 0".to_string(),
+            point => format!("no density near {point}"),
+        })
+    }
+
+    fn layout(&self, boxes: Boxes<'_>) -> Option<Layout> {
+        Some(boxes.point(&self.0))
     }
 
     fn objection(&self, model: &Model) -> Option<Objection> {

@@ -1,8 +1,9 @@
 //! Interface of the kinds of claims.
 
 use super::assumption::Assumption;
+use super::boxes::Boxes;
 use super::{Condition, Novelty, Reader, ResidualContext, ValueShape};
-use crate::formula::Formula;
+use crate::formula::{Formula, Layout};
 use crate::graph::Expr;
 use crate::mechanics::calculus::DualPoint;
 use crate::mechanics::{Model, NewVariables};
@@ -106,6 +107,11 @@ pub trait Statement: Clone {
 
     /// Returns the statement as text, if it is more than one formula.
     fn text(&self) -> Option<String> {
+        None
+    }
+
+    /// Sets the whole statement with its particulars, where it can be set.
+    fn layout(&self, _: Boxes<'_>) -> Option<Layout> {
         None
     }
 

@@ -1,8 +1,9 @@
 //! Symmetry fields, tangent to the level: [u,v] = (u·∇)v - (v·∇)u vanishes, or is a multiple of v.
 
+use super::boxes::Boxes;
 use super::components::Components;
 use super::{Condition, Reader, Statement, ValueShape};
-use crate::formula::{Formula, Type};
+use crate::formula::{Formula, Layout, Type};
 use crate::graph::Expr;
 use crate::mechanics::calculus::DualPoint;
 use crate::mechanics::elimination::{dot, rejection};
@@ -30,6 +31,28 @@ impl Statement for SymmetryField {
         Some(self.components.text.clone())
     }
 
+    fn layout(&self, boxes: Boxes<'_>) -> Option<Layout> {
+        let bracket = Layout::Row(vec![
+            Layout::name("u", Type::VECTOR),
+            Layout::Sign(","),
+            Layout::name("v", Type::VECTOR),
+        ]);
+        let bracket = Layout::Fenced("[", Box::new(bracket), "]");
+        let weight = self.weight.iter().map(|own| {
+            let factor = boxes.factor(own);
+            let multiple = match &factor {
+                Layout::Number(digits) if digits == "0" => factor,
+                _ => Layout::Row(vec![factor, Layout::Space, Layout::name("v", Type::VECTOR)]),
+            };
+            Layout::equation(bracket.clone(), multiple)
+        });
+        Some(Layout::listed([boxes.field(&self.components)].into_iter().chain(weight)))
+    }
+
+    fn particulars(&self) -> Option<String> {
+        Some(format!("[u,v] = {}*v", self.weight.as_ref()?.as_factor().text().trim()))
+    }
+
     fn formulas(&self) -> Vec<&Formula> {
         self.components.formulas().chain(&self.weight).collect()
     }
@@ -44,10 +67,6 @@ impl Statement for SymmetryField {
             Condition::continuous(own, "u"),
             Condition::continuous(jet.phase.field().to_vec(), "the field"),
         ]
-    }
-
-    fn particulars(&self) -> Option<String> {
-        self.weight.as_ref().map(|own| format!("weight {}", own.text().trim()))
     }
 
     fn residual<T: Scalar>(&self, jet: &DualPoint<'_, T>, kept: &[bool]) -> Vec<T> {

@@ -1,10 +1,11 @@
 //! Maps of phase space: symmetries, reversors, scalings, and maps to other systems.
 
+use super::boxes::Boxes;
 use super::elsewhere::{inverse_at, one_antiderivative, system_at, written_at};
 use super::images::Transformation;
 use super::statement::open_constant;
 use super::{Condition, Jets, Need, Reader, Statement, ValueShape, difference, quadrature_defects};
-use crate::formula::{Formula, Type};
+use crate::formula::{Formula, Layout, Type};
 use crate::graph::{Expr, record};
 use crate::mechanics::calculus::DualPoint;
 use crate::mechanics::{Dependence, Meaning, Model, Phase, Variable};
@@ -63,6 +64,14 @@ impl Statement for Symmetry {
         Some(self.map.text.clone())
     }
 
+    fn layout(&self, boxes: Boxes<'_>) -> Option<Layout> {
+        Some(boxes.images(&self.map, self.time.as_ref()))
+    }
+
+    fn particulars(&self) -> Option<String> {
+        Some(format!("t → {}*t", self.time.as_ref()?.as_factor().text().trim()))
+    }
+
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
         let mut map = Transformation::read(from, Self::NAME)?;
         let time = from.formula("time", Some(Type::Scalar))?;
@@ -92,10 +101,6 @@ impl Statement for Symmetry {
 
     fn at_images_of_maps(&self) -> Vec<&Formula> {
         self.map.formulas()
-    }
-
-    fn particulars(&self) -> Option<String> {
-        self.time.as_ref().map(|own| format!("t → λ t, λ = {}", own.text().trim()))
     }
 
     fn presence(&self, jet: &DualPoint<'_, Expr>) -> Vec<Expr> {
@@ -167,6 +172,10 @@ impl Statement for Reversor {
 
     fn text(&self) -> Option<String> {
         Some(self.0.text.clone())
+    }
+
+    fn layout(&self, boxes: Boxes<'_>) -> Option<Layout> {
+        Some(boxes.images(&self.0, None))
     }
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
@@ -267,8 +276,10 @@ impl Statement for Map {
             }
             rates[index] = Some(rate);
         }
+        let missing = names.iter().zip(&rates).filter(|(_, rate)| rate.is_none());
+        let missing: Vec<String> = missing.map(|(name, _)| format!("`{name}`")).collect();
         let Some(rates) = rates.into_iter().collect::<Option<Vec<Formula>>>() else {
-            let message = "`field` has no rate for one of the new variables".to_string();
+            let message = format!("`field` has no rate for {}", missing.join(", "));
             return Err(from.complaint("field", message, "give one for each name in `map`"));
         };
         let multiplier = from.formula("multiplier", Some(Type::Scalar))?;

@@ -2,7 +2,7 @@
 
 use super::error::{FormulaError, Span, excerpt};
 use super::kind::Type;
-use super::lexer::TokenKind;
+use super::lexer::{Token, TokenKind, superscript_number};
 use super::parser::Parser;
 use super::scope::resolve;
 use super::spelling::split;
@@ -34,7 +34,7 @@ impl Parser<'_> {
             let error = FormulaError::new(token.span, "an operator is missing between two vectors");
             return error.with_help(format!("a cross product is written `{a} × …`"));
         }
-        if let Some(help) = self.adjacent(left, &token.kind, &b) {
+        if let Some(help) = self.adjacent(left, &token, &b) {
             return FormulaError::new(token.span.clone(), format!("`{b}` cannot stand here"))
                 .with_help(help);
         }
@@ -46,10 +46,41 @@ impl Parser<'_> {
         let known = |piece: &str| resolve(piece, self.scope).is_some();
         let pieces = split(&b, known).filter(|_| right.is_none()).map(|pieces| pieces.join("*"));
         let b = pieces.unwrap_or(b);
+        if let Some(help) = self.divided(left, &token.span, &b) {
+            return FormulaError::new(token.span, "missing `*`").with_help(help);
+        }
         if let Some(help) = self.units(left, &token.span, &b) {
             return FormulaError::new(token.span, "missing `*`").with_help(help);
         }
         FormulaError::new(token.span, "missing `*`").with_help(format!("write `{a}*{b}`"))
+    }
+
+    /// Advice where a factor follows a divisor, by which it may be meant to divide as well.
+    fn divided(&self, left: &Operand, right: &Span, name: &str) -> Option<String> {
+        let text = self.builder.text;
+        let before = text[..left.span.start].trim_end().strip_suffix('/')?.trim_end();
+        let mut depth = 0usize;
+        let start = before.char_indices().rev().find_map(|(at, letter)| {
+            match letter {
+                ')' | ']' => depth += 1,
+                '(' | '[' if depth > 0 => depth -= 1,
+                '(' | '[' | ',' | '+' | '-' | '−' | '=' if depth == 0 => {
+                    return Some(at + letter.len_utf8());
+                }
+                _ => {}
+            }
+            None
+        });
+        let above = excerpt(before[start.unwrap_or(0)..].trim_start());
+        let below = excerpt(self.text(&left.span));
+        let whole = format!("`{above}/({below}*{name})`");
+        let product = format!("`{above}/{below}*{name}`");
+        // A gap before the factor speaks against its being part of the divisor.
+        let (first, second) = match left.span.end < right.start {
+            true => (product, whole),
+            false => (whole, product),
+        };
+        Some(format!("write {first} or {second}, whichever is meant"))
     }
 
     /// Advice where units follow a number to the end of the formula.
@@ -76,11 +107,24 @@ impl Parser<'_> {
     }
 
     /// Advice for a token that follows a value and is no factor of it.
-    fn adjacent(&self, left: &Operand, kind: &TokenKind, text: &str) -> Option<String> {
-        match (kind, text) {
+    fn adjacent(&self, left: &Operand, token: &Token, text: &str) -> Option<String> {
+        let is_time = || self.builder.text[token.span.start..].replace(' ', "").starts_with("(t)");
+        match (token.kind, text) {
             (TokenKind::Name, "mod") => {
                 Some("`k mod n` stands in an index, as in `x[i+1 mod n]`".to_string())
             }
+            (TokenKind::Name, "dot" | "cross") => {
+                let a = excerpt(self.text(&left.span));
+                let sign = if text == "dot" { "`(a,b)`" } else { "`a × b`" };
+                Some(match left.value_type {
+                    Type::Scalar => format!("a product is written `{a}*…`, one of vectors {sign}"),
+                    _ => format!("a product of vectors is written {sign}"),
+                })
+            }
+            (TokenKind::Open, _) if is_time() => Some(format!(
+                "write `{}`, which is the value at the time t",
+                excerpt(self.text(&left.span))
+            )),
             (TokenKind::Name, "if" | "where" | "for" | "when") => Some(
                 "`if(i = j, a, b)` compares indices; values have `max`, `min`, `sign` and `|x|`"
                     .to_string(),
@@ -151,6 +195,10 @@ impl Parser<'_> {
             (TokenKind::Comparison, None) if self.text(&span) == "<" => {
                 error.with_help("a dot product is written `(a,b)`")
             }
+            (TokenKind::Superscript, Some('^')) => {
+                let exponent = superscript_number(self.text(&span));
+                error.with_help(format!("write `a^{exponent}` or `a{}`", self.text(&span)))
+            }
             (TokenKind::Comparison, _) => error.with_help(NO_EQUATION),
             _ => error,
         }
@@ -195,7 +243,7 @@ impl Parser<'_> {
                     .with_help(format!("write {before}.{after}"))
             }
             TokenKind::Comma => FormulaError::new(span, "a comma is allowed only inside brackets")
-                .with_help("a dot product is written `(a,b)`, a vector `[a,b,c]`"),
+                .with_help("a dot product is written `(a,b)`, a vector `[a,b,c]`, a list of formulas [\"a\", \"b\"]"),
             _ => FormulaError::new(span, format!("`{found}` cannot follow a complete formula")),
         }
     }
@@ -215,8 +263,23 @@ impl Parser<'_> {
             ("=", _) if is_name(before) => Some(format!("{before} =")),
             _ => None,
         };
+        let is_sum = |text: &str| text.contains(['+', '-', '−']);
         let help = match spare {
             Some(spare) => format!("{NO_EQUATION}: leave out `{spare}`"),
+            None if found == "=" && !before.is_empty() && !after.is_empty() => {
+                let (a, b) = (excerpt(before), excerpt(after));
+                let difference = match after {
+                    "0" => a.clone(),
+                    _ if is_sum(after) => format!("{a} - ({b})"),
+                    _ => format!("{a} - {b}"),
+                };
+                format!(
+                    "{NO_EQUATION}: write `{difference}`, or claim the equation by identity = \"{a} = {b}\""
+                )
+            }
+            None if found != "=" => {
+                format!("{NO_EQUATION}; values are compared by `max`, `min`, `sign` and `|x|`")
+            }
             None => NO_EQUATION.to_string(),
         };
         FormulaError::new(sign, format!("`{found}` has no meaning in a formula")).with_help(help)

@@ -336,7 +336,12 @@ pub(super) fn call(
                 },
             );
             let message = format!("`{name}` takes a {wanted} here, this is a {found}");
-            FormulaError::new(arguments[place].span.clone(), message)
+            let error = FormulaError::new(arguments[place].span.clone(), message);
+            if (name, arguments[place].value_type) == ("norm", Type::Scalar) {
+                let own = builder.written(&arguments[place]);
+                return Err(error.with_help(format!("write `|{own}|`")));
+            }
+            error
         }
         None => {
             let mut counts: Vec<String> = overloads(name).map(|f| f.arguments.count()).collect();

@@ -178,7 +178,8 @@ fn stray(c: char, span: Span, before: &str) -> FormulaError {
         '∧' => error.with_help("a cross product is written `a × b`"),
         '⊙' | '∘' | '⊤' | '†' => error.with_help("products are `a*b`, `(a,b)` and `a × b`"),
         '∇' => error.with_help(
-            "derivatives are taken for you: rate = \"F\" claims the rate of F, and −∇h is `r`",
+            "derivatives are taken for you: rate = \"F\" claims the rate of F, a slope is `∂F/∂x`, and −∇h of \
+             a rolling body is `r`",
         ),
         '$' => error.with_help("formulas are not LaTeX: leave the dollars out"),
         '“' | '”' | '„' | '‘' | '’' | '"' => error.with_help("leave these quotes out"),
@@ -192,7 +193,7 @@ fn stray(c: char, span: Span, before: &str) -> FormulaError {
         '!' => error.with_help("write n! as `product(k, 1..n, k)`"),
         '%' => error.with_help("write 5 % as 0.05; a remainder is `k mod n`, in an index"),
         '∛' => error.with_help("write `x^(1/3)`"),
-        '÷' | ':' => error.with_help("write `a/b`"),
+        '÷' | ':' | '⁄' | '∕' => error.with_help("write `a/b`"),
         _ => error
             .with_help("formulas have names, numbers and the signs + − * / ^ √ × ⊗ ∫ | ( ) [ ]"),
     }

@@ -102,7 +102,13 @@ impl Parser<'_> {
         let found = known(name).or_else(|| known(&canonical_name(name)?));
         let Some((symbol, value)) = found else {
             let message = format!("`{name}` is not a whole number that the file fixes");
-            let help = "use numbers, indices, and parameters such as n = 4";
+            let before = self.builder.text[..span.start].trim_end();
+            let help = match before.ends_with("if(") {
+                true => {
+                    "`if(i = j, a, b)` compares indices; values have `max`, `min`, `sign` and `|x|`"
+                }
+                false => "use numbers, indices, and parameters such as n = 4",
+            };
             return Err(FormulaError::new(span, message).with_help(help));
         };
         let fixed = &mut self.builder.arena.fixed;
@@ -116,11 +122,22 @@ impl Parser<'_> {
     fn call(&mut self, name: &str, span: Span) -> Parsed {
         if self.peek() != TokenKind::Open {
             let help = match self.peek() {
+                TokenKind::Caret if name == "exp" => {
+                    self.advance();
+                    let exponent = self.attempt().ok();
+                    let exponent = exponent.map_or("x", |own| self.text(&own.span));
+                    match exponent.starts_with('(') {
+                        true => format!("write `exp{exponent}`"),
+                        false => format!("write `exp({exponent})`"),
+                    }
+                }
                 TokenKind::Caret | TokenKind::Superscript => {
                     format!("{}; its power is `({name}(x))^2`", functions::usage(name))
                 }
                 TokenKind::Name | TokenKind::Number if functions::takes_one(name) => {
-                    format!("write `{name}({})`", self.text(&self.token().span))
+                    let word = self.token().span.clone();
+                    let argument = self.attempt().map_or(word, |own| own.span);
+                    format!("write `{name}({})`", self.text(&argument))
                 }
                 TokenKind::Bar if functions::takes_one(name) => format!("write `{name}(|x|)`"),
                 _ => functions::usage(name),

@@ -12,7 +12,14 @@ impl Builder<'_> {
             if !matches!(factor.value_type, Type::Vector(_)) {
                 let message =
                     format!("a dot product takes two vectors, this is a {}", factor.value_type);
-                return Err(FormulaError::new(factor.span.clone(), message));
+                let error = FormulaError::new(factor.span.clone(), message);
+                let has_scalar = [a, b].iter().any(|own| own.value_type == Type::Scalar);
+                return Err(match has_scalar {
+                    true => {
+                        error.with_help(format!("write `{}*{}`", self.written(a), self.written(b)))
+                    }
+                    false => error,
+                });
             }
         }
         if a.value_type != b.value_type {
@@ -115,7 +122,10 @@ impl Builder<'_> {
                 let error = FormulaError::new(brackets, "a matrix has two indices");
                 Err(error.with_help(format!("write `{}[1,2]`", self.written(a))))
             }
-            (Type::Scalar, _) => Err(FormulaError::new(brackets, "a scalar has no components")),
+            (Type::Scalar, _) => {
+                let error = FormulaError::new(brackets, "a scalar has no components");
+                Err(error.with_help(format!("write `{}`", self.written(a))))
+            }
         }
     }
 

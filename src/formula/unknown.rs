@@ -12,7 +12,7 @@ use super::{binders, functions};
 const MOST_LISTED: usize = 24;
 
 /// Functions of other languages, and their notation here.
-const ELSEWHERE: [(&[&str], &str); 25] = [
+const ELSEWHERE: [(&[&str], &str); 31] = [
     (
         &["grad", "gradient", "nabla", "diff", "derivative", "d"],
         "write `∂F/∂x`, or `partial(F, x)`",
@@ -35,6 +35,21 @@ const ELSEWHERE: [(&[&str], &str); 25] = [
     (&["log2"], "write `log(x)/log(2)`"),
     (&["cbrt"], "write `x^(1/3)`, for x > 0"),
     (&["pow"], "write `a^b`"),
+    (
+        &["int", "integrate", "quad"],
+        "an antiderivative is written `∫(f, x)`; no function cuts decimals off",
+    ),
+    (
+        &["floor", "ceil", "round", "frac"],
+        "functions with steps are not known here, apart from `sign(x)`",
+    ),
+    (&["erf"], "write `2/√pi*∫(exp(−x^2), x)`, which is an antiderivative"),
+    (&["gamma", "Gamma", "factorial"], "the gamma function is not known here"),
+    (
+        &["J0", "J1", "Y0", "Y1", "besselj", "bessel"],
+        "Bessel's functions are not known here: make them state variables that obey their equation",
+    ),
+    (&["where", "piecewise", "cases"], "write cases with `max`, `min`, `sign` and `|x|`"),
     (&["fabs"], "write `|x|`"),
     (&["heaviside", "step", "theta", "θ"], "write `(1 + sign(x))/2`"),
     (&["eye", "identity", "unit"], "write `E`, or `E(4)` for four rows"),
@@ -84,8 +99,17 @@ impl Parser<'_> {
                 .map_or(0, |at| at + base[at..].chars().next().map_or(0, char::len_utf8));
             return Some(format!("a transpose is written `{}ᵀ`", &base[start..]));
         }
-        if let Some(base) = name.strip_suffix("dot").filter(|base| known(&format!("{base}'"))) {
+        let has_rate = |base: &&str| known(&format!("{base}'"));
+        let rest = &self.builder.text[span.end..];
+        let differential = name.strip_prefix('d').filter(|_| rest.trim_start().starts_with("/dt"));
+        let dotted = || name.strip_suffix("dot").or_else(|| name.strip_prefix("dot"));
+        if let Some(base) = differential.or_else(dotted).filter(has_rate) {
             return Some(format!("the rate of `{base}` is written `{base}'`"));
+        }
+        if let Some(base) = name.strip_suffix("''").filter(has_rate) {
+            return Some(format!(
+                "second rates have no names: write the rate of the variable that `{base}'` is equal to"
+            ));
         }
         if name.starts_with('∂') || self.builder.text[span.start..].starts_with("d/dt") {
             return Some(
@@ -135,6 +159,7 @@ impl Parser<'_> {
         if called {
             let mut own = own;
             own.sort_unstable();
+            own.dedup();
             return Some(format!("the functions are {}", own.join(", ")));
         }
         listed(names)

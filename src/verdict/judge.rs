@@ -193,8 +193,8 @@ impl JudgeError {
             }
             JudgeError::AsymmetricInertia => "write a symmetric matrix for the inertia tensor",
             JudgeError::Unreachable(_) => {
-                "check the equations of [level], whose slopes may not all vanish on it, or widen the \
-                 ranges of [state]"
+                "check the equations of [level] and the constraints, whose slopes may not all vanish where they \
+                 hold, or widen the ranges of [state]"
             }
             JudgeError::Singular(_) => {
                 "look for a division by zero, the root of a negative number, a singular inertia \

@@ -55,6 +55,7 @@ mod poles;
 mod preimages;
 mod recorded;
 mod restriction;
+mod reversed;
 mod run;
 mod sampler;
 mod second_opinion;

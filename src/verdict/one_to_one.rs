@@ -34,7 +34,9 @@ impl Judging<'_> {
         let is_whole = self.missed_part(sampler)?.is_none() && self.pieces(sampler)?.is_none();
         let is_proved = is_whole
             && match states {
-                SecondState::InRanges => self.has_inverse(sampler)?,
+                SecondState::InRanges => {
+                    self.has_inverse(sampler)? || self.has_reversor(sampler)?
+                }
                 SecondState::Anywhere => match self.without_ranges(sampler)? {
                     Some(unbounded) => self.has_inverse(&unbounded)?,
                     None => false,

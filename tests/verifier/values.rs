@@ -157,6 +157,13 @@ fn a_body_that_may_spin_is_the_same_by_values() {
         [[claim]]
         smooth-density = "exists"
         expect = "open"
+        [[claim]]
+        analytic-density = "exists"
+        expect = "open"
+        source = "(2.1)"
+        [[claim]]
+        position-density = "exists"
+        expect = "open"
     "#;
     let file = Case::parse(text, &[]).expect("a case");
     let built = Model::rolling_sphere()
@@ -176,6 +183,8 @@ fn a_body_that_may_spin_is_the_same_by_values() {
         Claim::divergence_relative_to(formula("D_T"), formula("(χ,ω)")),
         Claim::divergence(formula("(χ,ω)")).expected(Expect::Fails),
         Claim::smooth_density().expected(Expect::Open),
+        Claim::analytic_density().expected(Expect::Open).from_source("(2.1)"),
+        Claim::position_density().expected(Expect::Open),
     ];
     let options = Options::default();
     let by_values = built.judge(&claims, &options).expect("judged");
@@ -187,6 +196,19 @@ fn a_body_that_may_spin_is_the_same_by_values() {
 fn oscillator() -> Case {
     let built = Model::field().state("x", "-2..2", "v").state("v", "-2..2", "-x");
     built.build().expect("a case")
+}
+
+#[test]
+fn an_invariant_relation_has_its_cofactor() {
+    let case = Model::field().state("x", "-2..2", "x*v").state("v", "-2..2", "-v").build();
+    let case = case.expect("a case");
+    let [x, v] = ["x", "v"].map(|name| case.formula(name).expect("a name"));
+    let claims = [
+        Claim::invariant_relation(&x, &v),
+        Claim::invariant_relation(&x, &x).expected(Expect::Fails),
+    ];
+    let report = case.judge(&claims, &Options::default()).expect("judged");
+    assert!(report.claims.iter().all(|claim| claim.agrees), "{:?}", report.claims);
 }
 
 fn refusal(case: &Case, claim: Claim) -> String {

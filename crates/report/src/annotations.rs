@@ -50,7 +50,18 @@ fn of_claim(outcome: &FileOutcome, claim: &ClaimReport, text: &str) -> String {
         (false, _) | (_, Verdict::Undecided) => "warning",
         _ => return String::new(),
     };
-    let line = claim.formula.as_ref().and_then(|formula| line_of(text, claim.kind, formula));
+    let title = format!("{} {}", claim.kind, claim.name);
+    annotation(level, &outcome.path, [line_of(text, claim), None], &title, &words(claim))
+}
+
+fn of_failure(outcome: &FileOutcome, failure: &FileFailure) -> String {
+    let place = [failure.line, failure.column];
+    let message = words_of_failure(failure);
+    annotation("error", &outcome.path, place, "the case cannot be judged", &message)
+}
+
+/// A verdict against what was expected, with its reason and the state of a witness.
+pub fn words(claim: &ClaimReport) -> String {
     let mut message = format!("{}, expected: {}", claim.verdict.word(), claim.expect.word());
     if let Some(reason) = &claim.evidence.reason {
         _ = write!(message, "; {reason}");
@@ -58,17 +69,15 @@ fn of_claim(outcome: &FileOutcome, claim: &ClaimReport, text: &str) -> String {
     if let Some(witness) = &claim.evidence.witness {
         _ = write!(message, "; at {}", witness.state);
     }
-    let title = format!("{} {}", claim.kind, claim.name);
-    annotation(level, &outcome.path, [line, None], &title, &message)
+    message
 }
 
-fn of_failure(outcome: &FileOutcome, failure: &FileFailure) -> String {
-    let message = match &failure.help {
+/// A mistake with its help.
+pub fn words_of_failure(failure: &FileFailure) -> String {
+    match &failure.help {
         Some(help) => format!("{}\nhelp: {help}", failure.message),
         None => failure.message.clone(),
-    };
-    let place = [failure.line, failure.column];
-    annotation("error", &outcome.path, place, "the case cannot be judged", &message)
+    }
 }
 
 fn annotation(
@@ -87,8 +96,13 @@ fn annotation(
     out + &format!(",title={}::{}\n", property(title), data(message))
 }
 
-/// Line of a claim, from 1: the first that begins with its key and holds its formula.
-fn line_of(text: &str, kind: &str, formula: &str) -> Option<usize> {
+/// Line of a claim in the text of its file, from 1.
+pub fn line_of(text: &str, claim: &ClaimReport) -> Option<usize> {
+    line_with(text, claim.kind, claim.formula.as_ref()?)
+}
+
+/// The first line, from 1, that begins with a key and holds a formula.
+fn line_with(text: &str, kind: &str, formula: &str) -> Option<usize> {
     let is_own = |line: &str| line.trim_start().starts_with(kind) && line.contains(formula);
     text.lines().position(is_own).map(|line| line + 1)
 }
@@ -117,7 +131,7 @@ mod tests {
     #[test]
     fn claims_are_found_by_their_keys_and_formulas() {
         let text = "# x\n[[claim]]\ndensity = \"x\"\n[[claim]]\n  integral = \"x\"\n";
-        assert_eq!(line_of(text, "integral", "x"), Some(5));
-        assert_eq!(line_of(text, "integral", "y"), None);
+        assert_eq!(line_with(text, "integral", "x"), Some(5));
+        assert_eq!(line_with(text, "integral", "y"), None);
     }
 }

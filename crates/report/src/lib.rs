@@ -110,9 +110,12 @@ impl Heading {
 
     /// The same heading with the statements of all claims.
     pub fn with_all_statements(self, case: &Case) -> Self {
-        let claims = case.homes().flat_map(|home| &home.claims);
-        let particulars =
-            claims.filter_map(|own| Some((own.name.clone(), own.kind.particulars()?))).collect();
+        let claims = case.homes().flat_map(|home| home.claims.iter().map(move |own| (home, own)));
+        // What is set has them.
+        let particulars = claims
+            .filter(|(home, own)| own.kind.layout(&home.model).is_none())
+            .filter_map(|(_, own)| Some((own.name.clone(), own.kind.particulars()?)))
+            .collect();
         Self { statements: statements(case, |_| true), particulars, ..self }
     }
 }

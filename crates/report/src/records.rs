@@ -3,13 +3,15 @@
 
 use std::fmt::Write;
 
-use liouville::verdict::{ClaimReport, Verdict};
+use liouville::verdict::ClaimReport;
 
+use super::annotations::{line_of, words, words_of_failure};
+use super::evidence::options;
 use super::typeset::mathml;
-use super::{FileOutcome, RunReport};
+use super::{FileFailure, FileOutcome, RunReport};
 
-/// Renders a header and one line for each claim; files that could not be judged have one line, with
-/// the first mistake as the reason.
+/// Renders a header and one line for each claim; of a file that could not be judged one for each
+/// mistake, which is the reason.
 pub fn csv(run: &RunReport) -> String {
     let mut out = String::from(
         "path,title,claim,kind,source,expected,verdict,as_expected,method,reason,remark\n",
@@ -42,10 +44,10 @@ pub fn csv(run: &RunReport) -> String {
                     claim.evidence.remark.as_deref().unwrap_or_default(),
                 ]);
             }),
-            Err(failures) => {
-                let message = failures.first().map_or("", |failure| failure.message.as_str());
+            Err(failures) => failures.iter().for_each(|failure| {
+                let message = failure.message.as_str();
                 line([&outcome.path, title, "", "", "", "", "error", "no", "", message, ""]);
-            }
+            }),
         }
     }
     out
@@ -59,73 +61,139 @@ fn quoted(field: &str) -> String {
     }
 }
 
-/// Renders one test suite for each file and one test for each claim.
+/// Renders one test suite for each file and one test for each claim, or for each mistake of a file that
+/// could not be judged, by the schema `junit-10.xsd`.
 ///
-/// A verdict against expectation is a failure, a file that could not be judged an error, and a
-/// claim about motion that was not looked at is absent.
-pub fn junit(run: &RunReport) -> String {
-    let summary = run.summary();
+/// A verdict against expectation is a failure, a mistake an error, and a claim about motion that was not
+/// looked at is absent. `text_of` returns the text of a file, in which the lines of claims are looked up.
+pub fn junit(run: &RunReport, text_of: impl Fn(&str) -> Option<String>) -> String {
+    let suites: Vec<TestSuite> =
+        run.outcomes.iter().map(|outcome| TestSuite::of(outcome, &text_of)).collect();
+    let count = |kind| suites.iter().map(|suite| suite.count(kind)).sum::<usize>();
+    let tests: usize = suites.iter().map(|suite| suite.tests.len()).sum();
     let mut out = format!(
-        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites tests=\"{}\" failures=\"{}\" \
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites tests=\"{tests}\" failures=\"{}\" \
          errors=\"{}\" time=\"{:.3}\">\n",
-        summary.claims, summary.disagreements, summary.errors, summary.seconds
+        count("failure"),
+        count("error"),
+        run.elapsed.as_secs_f64()
     );
-    run.outcomes.iter().for_each(|outcome| out.push_str(&suite(outcome)));
-    out.push_str("</testsuites>\n");
-    out
+    suites.iter().for_each(|suite| out.push_str(&suite.render()));
+    out + "</testsuites>\n"
 }
 
-fn suite(outcome: &FileOutcome) -> String {
-    let path = escaped(&outcome.path);
-    let mut out = String::new();
-    match &outcome.result {
-        Ok(report) => {
-            let is_failure =
-                |claim: &&ClaimReport| !claim.agrees && !outcome.unreached.contains(&claim.name);
-            let failures = report.claims.iter().filter(is_failure).count();
-            let tests = report.claims.len();
-            _ = writeln!(
-                out,
-                "  <testsuite name=\"{path}\" tests=\"{tests}\" failures=\"{failures}\" errors=\"0\">"
-            );
-            for claim in &report.claims {
-                let is_reached = !outcome.unreached.contains(&claim.name);
-                out.push_str(&test(&path, claim, is_reached));
-            }
-        }
-        Err(failures) => {
-            _ = writeln!(
-                out,
-                "  <testsuite name=\"{path}\" tests=\"1\" failures=\"0\" errors=\"1\">\n    \
-                 <testcase classname=\"{path}\" name=\"the file\">"
-            );
-            for failure in failures {
-                _ = writeln!(out, "      <error message=\"{}\"/>", escaped(&failure.message));
-            }
-            out.push_str("    </testcase>\n");
-        }
-    }
-    out.push_str("  </testsuite>\n");
-    out
+/// Tests of a file.
+struct TestSuite {
+    path: String,
+    tests: Vec<TestCase>,
 }
 
-fn test(path: &str, claim: &ClaimReport, is_reached: bool) -> String {
-    let name = escaped(&format!("{}: {}", claim.kind, claim.name));
-    let open = format!("    <testcase classname=\"{path}\" name=\"{name}\"");
-    if claim.agrees {
-        return format!("{open}/>\n");
+/// A claim or a mistake as a test.
+struct TestCase {
+    name: String,
+    /// Name of the element that says why it did not pass, its type, its message and its text.
+    problem: Option<(&'static str, &'static str, String, String)>,
+}
+
+impl TestSuite {
+    fn of(outcome: &FileOutcome, text_of: &impl Fn(&str) -> Option<String>) -> Self {
+        let path = outcome.path.clone();
+        let tests = match &outcome.result {
+            Ok(report) => {
+                let has_problem = report.claims.iter().any(|claim| !claim.agrees);
+                let text = has_problem.then(|| text_of(&path)).flatten().unwrap_or_default();
+                report.claims.iter().map(|claim| TestCase::of(outcome, claim, &text)).collect()
+            }
+            Err(failures) => {
+                let place = |number: usize| match failures.len() {
+                    1 => "the file".to_string(),
+                    _ => format!("the file, mistake {}", number + 1),
+                };
+                let test = |(number, failure): (usize, &FileFailure)| TestCase {
+                    name: place(number),
+                    problem: Some((
+                        "error",
+                        "mistake",
+                        failure.message.clone(),
+                        placed(&path, failure.line, &words_of_failure(failure)),
+                    )),
+                };
+                failures.iter().enumerate().map(test).collect()
+            }
+        };
+        Self { path, tests }
     }
-    let verdict = claim.verdict.word();
-    let reason = match (claim.verdict, &claim.evidence.reason) {
-        (Verdict::Undecided, Some(reason)) => format!(": {reason}"),
-        _ => String::new(),
-    };
-    if !is_reached {
-        let message = escaped(claim.evidence.reason.as_deref().unwrap_or("not reached"));
-        return format!("{open}>\n      <skipped message=\"{message}\"/>\n    </testcase>\n");
+
+    fn count(&self, kind: &str) -> usize {
+        let is_own = |test: &&TestCase| test.problem.as_ref().is_some_and(|own| own.0 == kind);
+        self.tests.iter().filter(is_own).count()
     }
-    let message = escaped(&format!("{verdict}, expected: {}{reason}", claim.expect.word()));
-    format!("{open}>\n      <failure message=\"{message}\"/>\n    </testcase>\n")
+
+    fn render(&self) -> String {
+        let path = escaped(&self.path);
+        let mut out = format!(
+            "  <testsuite name=\"{path}\" tests=\"{}\" failures=\"{}\" errors=\"{}\" skipped=\"{}\">\n",
+            self.tests.len(),
+            self.count("failure"),
+            self.count("error"),
+            self.count("skipped")
+        );
+        for test in &self.tests {
+            let name = escaped(&test.name);
+            // a `String` takes all that is written to it
+            _ = write!(out, "    <testcase classname=\"{path}\" name=\"{name}\"");
+            _ = match &test.problem {
+                None => writeln!(out, "/>"),
+                Some((element, kind, message, text)) => writeln!(
+                    out,
+                    ">\n      <{element} type=\"{kind}\" message=\"{}\">{}</{element}>\n    </testcase>",
+                    escaped(message),
+                    escaped_lines(text)
+                ),
+            };
+        }
+        out + "  </testsuite>\n"
+    }
+}
+
+impl TestCase {
+    fn of(outcome: &FileOutcome, claim: &ClaimReport, text: &str) -> Self {
+        let name = format!("{}: {}", claim.kind, claim.name);
+        let problem = match (claim.agrees, outcome.unreached.contains(&claim.name)) {
+            (true, _) => None,
+            (false, true) => {
+                let reason = claim.evidence.reason.as_deref().unwrap_or("not reached");
+                Some(("skipped", "not reached", reason.to_string(), String::new()))
+            }
+            (false, false) => {
+                let message = words(claim);
+                let line = line_of(text, claim);
+                let mut whole = placed(&outcome.path, line, &message);
+                if let Some(formula) = &claim.formula {
+                    _ = write!(whole, "\n{} = {formula}", claim.kind);
+                }
+                let witness = claim.evidence.witness.as_ref();
+                if let Some(witness) = witness {
+                    _ = write!(whole, "\nwitness: {}", options(witness));
+                }
+                Some(("failure", claim.verdict.word(), message, whole))
+            }
+        };
+        Self { name, problem }
+    }
+}
+
+/// A message behind the place in its file.
+fn placed(path: &str, line: Option<usize>, message: &str) -> String {
+    match line {
+        Some(line) => format!("{path}:{line}: {message}"),
+        None => format!("{path}: {message}"),
+    }
+}
+
+/// Escapes a text of several lines.
+fn escaped_lines(text: &str) -> String {
+    text.lines().map(escaped).collect::<Vec<_>>().join("\n")
 }
 
 /// Escapes a text for XML; control characters, which XML 1.0 has no place for, become spaces.

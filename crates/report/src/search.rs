@@ -2,7 +2,7 @@
 
 use serde_json::json;
 
-use liouville_search::{MultiplierReport, SearchReport};
+use liouville_search::{FURTHER_INTEGRAL, MultiplierReport, SearchReport};
 
 /// Renders the report as JSON.
 pub fn json(title: &str, report: &SearchReport) -> Result<String, serde_json::Error> {
@@ -60,12 +60,18 @@ pub fn text(title: &str, report: &SearchReport) -> String {
         for (what, text) in &found.with {
             out.push_str(&match *what {
                 // Its source, and no condition.
-                "bracket" if found.kind == "further-integral" => {
+                "bracket" if found.kind == FURTHER_INTEGRAL => {
                     format!("  as the bracket {text}\n")
                 }
                 "derivative along" => format!("  as the derivative along {text}\n"),
                 what => format!("  with the {what} {text}\n"),
             });
+        }
+        if found.kind == FURTHER_INTEGRAL {
+            out.push_str(
+                "  near almost every state a function of the integrals known, though no polynomial in \
+                 them of its degree\n",
+            );
         }
         for (name, text) in &found.abbreviations {
             out.push_str(&format!("    {name} = {text}\n"));

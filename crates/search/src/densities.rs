@@ -9,6 +9,7 @@ use super::library;
 use super::linear::SampledFunctions;
 use super::orbit::merged;
 use super::terms::{Power, multiplied, one, powers, recorded};
+use super::written::mass_densities;
 use super::{Effort, Found, SearchError, SearchReport};
 use liouville::case::Case;
 use liouville::claim::{Claim, LevelSubset};
@@ -59,7 +60,7 @@ pub fn densities(
             }
         }
         Exponents::Unknown => tell_volume(case, effort, report)?,
-        Exponents::None => {}
+        Exponents::None => masses(case, effort, report)?,
     }
     for (form, rate) in forms.into_iter().zip(moving) {
         let Exponents::Found(product) = logarithms.solve(case, rate, effort)? else { continue };
@@ -68,6 +69,18 @@ pub fn densities(
         let judged = judged_alone(case, Claim::integral(&formula), effort)?;
         if let Some(found) = judged.filter(holds) {
             tell(case, &formula, found, effort, report)?;
+        }
+    }
+    Ok(())
+}
+
+/// Adds the determinant of the masses on constraints to the report if it is proved to be a density.
+fn masses(case: &Case, effort: &Effort, report: &mut SearchReport) -> Result<(), SearchError> {
+    for density in mass_densities(case) {
+        let judged = judged_alone(case, Claim::density(&density), effort)?;
+        if let Some(found) = judged.filter(|own| own.verdict == Verdict::Proved) {
+            report.found.push(Found::new("density", &density, None, found, &case.model));
+            break;
         }
     }
     Ok(())

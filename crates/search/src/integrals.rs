@@ -95,6 +95,10 @@ pub fn tell(
     effort: &Effort,
     report: &mut SearchReport,
 ) -> Result<(), SearchError> {
+    // What is constant says nothing.
+    if found.evidence.independence == Some(Independence::Constant) {
+        return Ok(());
+    }
     let told: Vec<Formula> = report.functions("integral").cloned().collect();
     if !are_comparable(case, &told) {
         let count = told.len();
@@ -249,7 +253,10 @@ pub fn over_denominators(
             )),
         }
         if irrational > 0 {
-            let text = format!("{irrational} relations do not have small rational coefficients");
+            let text = match irrational {
+                1 => "1 relation does not have small rational coefficients".to_string(),
+                more => format!("{more} relations do not have small rational coefficients"),
+            };
             report.remark_of(RemarkOrigin::Irrational, text);
         }
         let written = |vector: &Vec<Rational>| {

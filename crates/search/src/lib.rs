@@ -43,6 +43,7 @@ mod local;
 mod lower;
 mod lowest;
 mod maps;
+mod measures;
 mod meter;
 mod momenta;
 mod multipliers;
@@ -77,7 +78,7 @@ pub use error::SearchError;
 pub use halt::Halt;
 pub use meter::Meter;
 pub use multipliers::MultiplierReport;
-pub use orbit::OrbitReport;
+pub use orbit::{FURTHER_INTEGRAL, OrbitReport};
 pub use origin::{ConditionOrigin, Remark, RemarkOrigin, TheoremOrigin};
 pub use report::{Excluded, Found, SearchReport};
 pub use second_opinion::SecondOpinion;
@@ -112,8 +113,11 @@ pub fn search(
             }
         })?;
         report.stage("the density 1", effort, |report| maps::volume(case, effort, report))?;
-        report
-            .stage("shorter formulas", effort, |report| written::shorten(case, effort, report))?;
+        report.stage("shorter formulas", effort, |report| {
+            recognised::rewrite(case, effort, report)?;
+            measures::prefer(case, effort, report)?;
+            written::shorten(case, effort, report)
+        })?;
         maps::note_fields_only(effort, &mut report);
         return Ok(report);
     }
@@ -182,6 +186,7 @@ pub fn search(
         recognised::rewrite(case, effort, report)?;
         vectors::gather(case, effort, report)?;
         leading::write_without_minus(case, effort, report)?;
+        measures::prefer(case, effort, report)?;
         written::shorten(case, effort, report)?;
         repeated::remove(case, effort, report)
     })?;

@@ -9,6 +9,7 @@ mod paper;
 use super::Formula;
 use super::kind::Type;
 use super::scope::Symbol;
+use paper::BoxStrength;
 
 /// A box on paper.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -66,6 +67,50 @@ impl Layout {
         Layout::Row(vec![left, Layout::Sign("="), right])
     }
 
+    /// The box of the rate d f/dt of a function, which is set as a factor.
+    pub fn rate(factor: Layout) -> Self {
+        let above = Layout::Row(vec![Layout::Word("d"), Layout::Space, factor]);
+        let below = Layout::Row(vec![Layout::Word("d"), Layout::name("t", Type::Scalar)]);
+        Layout::Fraction(Box::new(above), Box::new(below))
+    }
+
+    /// The box of a vector field as a derivation, u ∂/∂x + …, from the variables and their components.
+    pub fn derivation<'f>(
+        parts: impl IntoIterator<Item = (&'f str, &'f Formula)>,
+        names: &dyn Fn(Symbol) -> String,
+    ) -> Self {
+        let mut row = Vec::new();
+        for (name, formula) in parts {
+            let (is_negative, factor) = formula.signed_layout(names);
+            match (is_negative, row.is_empty()) {
+                (true, _) => row.push(Layout::Sign("−")),
+                (false, false) => row.push(Layout::Sign("+")),
+                (false, true) => {}
+            }
+            let kind = formula.value_type();
+            let is_one = matches!(&factor, Layout::Number(digits) if digits == "1");
+            if !is_one {
+                let gap = if kind == Type::Scalar { Layout::Space } else { Layout::Sign("·") };
+                row.extend([factor, gap]);
+            }
+            let variable = Box::new(Layout::name(name, kind));
+            row.push(Layout::Lowered(Box::new(Layout::Sign("∂")), variable));
+        }
+        Layout::Row(row)
+    }
+
+    /// The boxes of a list, with commas between them.
+    pub fn listed(parts: impl IntoIterator<Item = Layout>) -> Self {
+        let mut row = Vec::new();
+        for part in parts {
+            if !row.is_empty() {
+                row.extend([Layout::Sign(","), Layout::Space]);
+            }
+            row.push(part);
+        }
+        Layout::Row(row)
+    }
+
     /// The box of a map, left ↦ right.
     pub fn image(left: Layout, right: Layout) -> Self {
         Layout::Row(vec![left, Layout::Sign("↦"), right])
@@ -98,6 +143,24 @@ impl Layout {
 impl Formula {
     /// Sets the formula, with the given names of its symbols.
     pub fn layout(&self, names: &dyn Fn(Symbol) -> String) -> Layout {
-        paper::set(&self.arena, names)
+        paper::set(&self.arena, names, BoxStrength::Sum)
+    }
+
+    /// Sets the formula as a coefficient, without a minus sign before it; and whether it has one.
+    fn signed_layout(&self, names: &dyn Fn(Symbol) -> String) -> (bool, Layout) {
+        match paper::without_minus(self.layout(names)) {
+            Ok(layout) => (true, layout),
+            Err(_) => (false, self.layout_of_product(names)),
+        }
+    }
+
+    /// Sets the formula before a factor: a sum has brackets.
+    pub fn layout_of_product(&self, names: &dyn Fn(Symbol) -> String) -> Layout {
+        paper::set(&self.arena, names, BoxStrength::Product)
+    }
+
+    /// Sets the formula as a factor: a sum, and a product, have brackets.
+    pub fn layout_of_factor(&self, names: &dyn Fn(Symbol) -> String) -> Layout {
+        paper::set(&self.arena, names, BoxStrength::Power)
     }
 }

@@ -36,9 +36,10 @@ pub(super) struct Paper<'f> {
     names: &'f dyn Fn(Symbol) -> String,
 }
 
-/// Sets the whole formula.
-pub(super) fn set(arena: &Arena, names: &dyn Fn(Symbol) -> String) -> Layout {
-    Paper { arena, chains: Chains::new(arena), names }.set(arena.nodes.len() - 1, false).0
+/// Sets the whole formula in a place that requires this bond.
+pub(super) fn set(arena: &Arena, names: &dyn Fn(Symbol) -> String, least: BoxStrength) -> Layout {
+    let paper = Paper { arena, chains: Chains::new(arena), names };
+    paper.at(arena.nodes.len() - 1, least, false)
 }
 
 impl Paper<'_> {
@@ -363,7 +364,7 @@ fn number(value: &Rational, inline: bool) -> Bonded {
 }
 
 /// Removes a leading minus sign; `Err` with the box itself if there is none.
-fn without_minus(layout: Layout) -> Result<Layout, Layout> {
+pub(super) fn without_minus(layout: Layout) -> Result<Layout, Layout> {
     match layout {
         Layout::Row(mut parts) if parts.len() == 2 && parts[0] == Layout::Sign("−") => {
             Ok(parts.swap_remove(1))

@@ -237,8 +237,12 @@ fn forms_with_indices_say_what_is_missing() {
     assert_eq!(large.message(), "this has too many terms when expanded", "a limit");
     let endless = refuse("sum(i, 1..2000000000, j, 1..0, x)");
     assert_eq!(endless.message(), "this has too many terms when expanded", "of nothing, too");
-    error("if(x = 1, x, y)", "`x` is not a whole number that the file fixes", "x", fixed);
-    let equation = Some("a formula is a value, not an equation");
+    let cases =
+        Some("`if(i = j, a, b)` compares indices; values have `max`, `min`, `sign` and `|x|`");
+    error("if(x = 1, x, y)", "`x` is not a whole number that the file fixes", "x", cases);
+    let equation = Some(
+        "a formula is a value, not an equation; values are compared by `max`, `min`, `sign` and `|x|`",
+    );
     error("x ≠ y", "`≠` has no meaning in a formula", "≠", equation);
     error(
         "1..n",
@@ -300,8 +304,13 @@ fn incomplete_formulas_say_so() {
         "*",
         Some("a power is written `a^b`"),
     );
-    let equation = Some("a formula is a value, not an equation");
-    let comma = Some("a dot product is written `(a,b)`, a vector `[a,b,c]`");
+    let equation = Some(
+        "a formula is a value, not an equation: write `x + y - 2*x`, or claim the equation by identity = \
+         \"x + y = 2*x\"",
+    );
+    let comma = Some(
+        "a dot product is written `(a,b)`, a vector `[a,b,c]`, a list of formulas [\"a\", \"b\"]",
+    );
     error("γ,ω", "a comma is allowed only inside brackets", ",", comma);
     error(
         "x = y",
@@ -329,6 +338,22 @@ fn incomplete_formulas_say_so() {
         "1e99999",
         None,
     );
+}
+
+#[test]
+fn what_is_meant_is_written_out() {
+    let help = |text: &str| refuse(text).help().unwrap_or_default().to_string();
+    assert_eq!(help("x^2/2y"), "write `x^2/(2*y)` or `x^2/2*y`, whichever is meant");
+    assert_eq!(help("1 + 1/2 x"), "write `1/2*x` or `1/(2*x)`, whichever is meant", "a gap");
+    assert_eq!(help("exp^x"), "write `exp(x)`");
+    assert_eq!(help("sin x^2"), "write `sin(x^2)`");
+    assert_eq!(help("x(t)"), "write `x`, which is the value at the time t");
+    assert_eq!(help("(x,y)"), "write `x*y`", "a product of scalars");
+    assert_eq!(help("x[0]"), "write `x`");
+    assert_eq!(help("norm(x)"), "write `|x|`");
+    assert_eq!(help("x^²"), "write `a^2` or `a²`");
+    assert_eq!(help("x⁄2"), "write `a/b`");
+    assert!(help("floor(x)").contains("steps"), "a function that is not there");
 }
 
 #[test]

@@ -42,10 +42,31 @@ fn plain(layout: &Layout) -> String {
     }
 }
 
+fn name(symbol: Symbol) -> String {
+    ["m", "k", "ω", "J"][symbol.0 as usize].to_string()
+}
+
+fn read(text: &str) -> Formula {
+    Formula::parse(text, &Letters).expect(text)
+}
+
 fn set(text: &str) -> String {
-    let formula = Formula::parse(text, &Letters).expect(text);
-    let name = |symbol: Symbol| ["m", "k", "ω", "J"][symbol.0 as usize].to_string();
-    plain(&formula.layout(&name))
+    plain(&read(text).layout(&name))
+}
+
+#[test]
+fn what_stands_next_to_others_has_the_brackets_it_needs() {
+    let rate = |text: &str| plain(&Layout::rate(read(text).layout_of_factor(&name)));
+    assert_eq!(rate("m + k"), "{d (m+k)/dt}", "a sum");
+    assert_eq!(rate("−m"), "{d (−m)/dt}", "a minus");
+    assert_eq!(rate("m*k"), "{d (m k)/dt}", "a product");
+    assert_eq!(rate("m²"), "{d m^{2}/dt}", "a power");
+    assert_eq!(plain(&read("m*k").layout_of_product(&name)), "m k");
+    assert_eq!(plain(&read("m − k").layout_of_product(&name)), "(m−k)");
+    let parts = ["1", "−m*k", "m + k", "−(m − k)", "2*ω"].map(read);
+    let parts = ["x", "y", "z", "u", "v"].into_iter().zip(&parts);
+    let derivation = plain(&Layout::derivation(parts, &name));
+    assert_eq!(derivation, "∂_{x}−m k ∂_{y}+(m+k) ∂_{z}−(m−k) ∂_{u}+2 ω·∂_{v}");
 }
 
 #[test]

@@ -163,3 +163,24 @@ fn a_claim_says_nothing_where_its_formula_has_no_value_at_the_image() {
         }
     }
 }
+
+#[test]
+fn a_map_with_a_reversor_is_one_to_one_where_its_equation_has_values() {
+    let density = |state: &str, map: &str, reversor: &str| {
+        let claimed = format!("[[claim]]\nreversor = {{ {reversor} }}\n[[claim]]\ndensity = '1'\n");
+        let text = format!("title = 't'\n[state]\n{state}[map]\n{map}{claimed}");
+        let reports = claims(&text);
+        (reports[1].verdict, reports[1].evidence.remark.clone().unwrap_or_default())
+    };
+    let verlet = "q = 'q + 1/20*(p − q/40/(q^2 + 1)^(3/2))'\n\
+                  p = 'p − q/40/(q^2 + 1)^(3/2) − (q + 1/20*(p − q/40/(q^2 + 1)^(3/2)))/40/\
+                  ((q + 1/20*(p − q/40/(q^2 + 1)^(3/2)))^2 + 1)^(3/2)'\n";
+    let state = "q = '0.5..2'\np = '-1..1'\n";
+    assert_eq!(density(state, verlet, "p = '−p'"), (Verdict::Proved, String::new()));
+    // On 2..3 the map is two to one, and the equation of the reversor has no value there.
+    let sign = "sign(3/2 − x)";
+    let folded =
+        format!("x = '(1 + {sign})/2*(1 − x) + (1 − {sign})/2*(−1 − |x − 5/2|) + 0*√x'\ny = 'y'\n");
+    let (verdict, remark) = density("x = '0.1..3'\ny = '-1..1'\n", &folded, "y = '−y'");
+    assert!(verdict != Verdict::Proved || remark.contains("not proved"), "{verdict:?}: {remark}");
+}

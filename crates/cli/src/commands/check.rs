@@ -170,7 +170,7 @@ pub fn run(options: &CheckArgs) -> Result<CommandOutput, String> {
         }
         CheckFormat::Csv => records::csv(&run),
         CheckFormat::Github => annotations(&run, |path| std::fs::read_to_string(path).ok()),
-        CheckFormat::Junit => records::junit(&run),
+        CheckFormat::Junit => records::junit(&run, |path| std::fs::read_to_string(path).ok()),
         CheckFormat::Latex => VerdictTable::of(&run).latex(),
         CheckFormat::Markdown => VerdictTable::of(&run).markdown(),
         CheckFormat::Html => VerdictTable::of(&run).html(),

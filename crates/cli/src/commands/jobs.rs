@@ -196,5 +196,5 @@ pub(super) fn parsed(arguments: &[String]) -> Result<Command, String> {
 
 fn no_job(arguments: &[String]) -> String {
     let words = arguments.join(" ");
-    format!("error: `liouville {words}` is no job that may be done in parts")
+    format!("error: `liouville {words}` cannot be split into parts")
 }

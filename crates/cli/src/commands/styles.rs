@@ -44,7 +44,7 @@ impl Styles {
             let name = word.split('=').next().unwrap_or_default();
             if !self.names().contains(&name) {
                 return Err(format!(
-                    "error: {word} is no option of the report\nhelp: after -- write any of {}",
+                    "error: the report has no option {word}\nhelp: after -- write any of {}",
                     self.names().join(", ")
                 ));
             }

@@ -131,13 +131,15 @@ pub fn text<N: Decimal>(report: &PointReport<N>, model: &Model) -> String {
             "this state is off the level: claims on the level do not concern it".into(),
         );
     }
-    let rates: Vec<String> = report.field.iter().map(|rate| shown(rate)).collect();
-    let rates = rates.join("\n                   ");
+    let (word, prime) = if report.determinant.is_some() { ("image", "") } else { ("field", "'") };
+    for (place, rate) in report.field.iter().enumerate() {
+        let word = if place == 0 { word } else { "" };
+        let name = model.component_name(place);
+        line(&format!("{word:<5} {name}{prime}"), shown(rate));
+    }
     if let Some(determinant) = &report.determinant {
-        line("image", rates);
         line("det DΦ", shown(determinant));
     } else {
-        line("field", rates);
         line("divergence", shown(&report.divergence));
         line("  on the level", shown(&report.level_divergence));
     }

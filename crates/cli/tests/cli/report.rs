@@ -8,7 +8,9 @@ use liouville::verdict::Options;
 use liouville_cli::report::survey as written;
 use liouville_flow::portrait;
 use liouville_search::Halt;
-use liouville_search::survey::{HierarchyClass, Integrals, MeasureStatus, Survey, survey};
+use liouville_search::survey::{
+    HierarchyClass, Integrals, MeasureStatus, Survey, TestedClaim, survey,
+};
 use predicates::str::contains;
 
 /// Writes a body with parameters m and I, and further ones.
@@ -172,6 +174,46 @@ fn reversors_have_the_fixed_sets_of_the_appendix() {
     assert_eq!(sets.iter().filter(|set| **set == Some(2)).count(), 7, "dimension 2");
     assert_eq!(sets.iter().filter(|set| set.is_none()).count(), 1, "of the inversion it is empty");
     assert_eq!(found.symmetries.len(), 7, "Π(i), Σ(i), Σ(0)");
+}
+
+#[test]
+fn reversors_have_fixed_sets_on_levels_and_differ_there() {
+    let own = |constraint: &str, state: &[&str], kinetic: &str| {
+        let ranges: String = state.iter().map(|name| format!("\"{name}\" = '-2..2'\n")).collect();
+        let found = surveyed(&format!(
+            "title = 'knife'\nsystem = 'nonholonomic'\n[state]\n{ranges}[lagrangian]\n\
+             kinetic = \"{kinetic}\"\nconstraints = [\"{constraint}\"]\n"
+        ));
+        let dimension = |one: &TestedClaim| one.fixed_set.and_then(|set| set.dimension);
+        let maps: Vec<(usize, Option<usize>)> =
+            found.reversors.iter().map(|one| (one.images.len(), dimension(one))).collect();
+        (maps, found.symmetries.len())
+    };
+    let state = ["x", "y", "f", "x'", "y'", "f'"];
+    let (maps, _) = own("y'*cos(f) = x'*sin(f)", &state, "(x'^2 + y'^2 + f'^2)/2");
+    // The velocities turned round leave x, y and f, in which the constraint says nothing.
+    assert!(maps.contains(&(3, Some(3))), "{maps:?}");
+    // y, f and x' turned round leave y' cos 0 = 0 of x, y', f'.
+    assert!(maps.contains(&(3, Some(2))), "{maps:?}");
+    assert!(maps.iter().all(|(_, dimension)| dimension.is_some()), "{maps:?}");
+    // On y' = 0 a change of its sign is the identity.
+    let (maps, symmetries) = own("y' = 0", &["x", "y", "x'", "y'"], "(x'^2 + y'^2)/2");
+    assert_eq!(maps.len(), 4, "signs of x or y with x' or not: {maps:?}");
+    assert_eq!(symmetries, 3, "x with x', y, and both");
+}
+
+#[test]
+fn a_rest_at_which_volumes_change_excludes_densities_near_it() {
+    // Lorenz' field, and one like it that preserves volumes.
+    let field = |y: &str, z: &str| {
+        surveyed(&format!(
+            "title = 'l'\n[state]\nx = '-1..1'\ny = '-1..1'\nz = '-1..1'\n[field]\n\
+             x = '2*(y − x)'\ny = '{y} − x*z'\nz = '{z} + x*y'\n"
+        ))
+    };
+    let falling = field("3*x − y", "−z/3").hierarchy.measure;
+    assert_eq!(falling, MeasureStatus::ExcludedAtRest);
+    assert_ne!(field("3*x + y", "z").hierarchy.measure, MeasureStatus::ExcludedAtRest);
 }
 
 #[test]

@@ -3,6 +3,7 @@
 use super::document::{Document, DocumentSection, SectionBlock, TableCell};
 use super::entry::{self, blocks, independence, involution};
 use super::liouville::in_involution;
+use super::maps::maps;
 use super::picture;
 use liouville::case::Case;
 use liouville::verdict::CaseReport;
@@ -20,6 +21,8 @@ pub fn document(survey: &Survey, origin: &str) -> Document {
         DocumentSection::new("Invariant measure", measure(survey)),
         DocumentSection::new("Further integrals", integrals(survey)),
         DocumentSection::new("For single listed values", blocks(&survey.for_values)),
+        DocumentSection::new("Invariant surfaces", blocks(&survey.surfaces)),
+        DocumentSection::new("Functions of constant rate", blocks(&survey.drifts)),
         DocumentSection::new("Symmetry fields", blocks(&survey.fields)),
         DocumentSection::new("Reversors and symmetries", maps(survey)),
         DocumentSection::new("Conformally Hamiltonian form", hamiltonian(survey)),
@@ -87,7 +90,7 @@ fn described(own: &Description) -> Vec<SectionBlock> {
         found.extend([text("Equations of motion:"), set(&own.equations)]);
     }
     if !own.parameters.is_empty() {
-        found.extend([text("Parameters:"), SectionBlock::List(own.parameters.clone())]);
+        found.extend([text("Parameters:"), set(&own.parameters)]);
     }
     found
 }
@@ -251,7 +254,10 @@ fn integrals(survey: &Survey) -> Vec<SectionBlock> {
         true => count,
         false => format!("What holds for all listed values: {count}"),
     }));
-    found.extend(survey.independence.claim.as_ref().map(independence));
+    // Of one integral it would say nothing.
+    if survey.independence.independent.len() > 1 {
+        found.extend(survey.independence.claim.as_ref().map(independence));
+    }
     if let Some(proof) = &survey.liouville {
         found.push(text(in_involution(proof)));
         found.push(involution(&proof.claim));
@@ -269,6 +275,9 @@ fn count(count: &IntegralCount, place: &HierarchyPlace) -> String {
         }
         (true, true) if count.needed == 0 => "one is known",
         (true, true) => "these suffice",
+        (true, false) if place.measure == MeasureStatus::Singular => {
+            "these suffice on each part between the zeros and poles of the density"
+        }
         (true, false) => "no measure is known",
         (false, _) => "too few integrals are known",
     };
@@ -287,46 +296,6 @@ fn count(count: &IntegralCount, place: &HierarchyPlace) -> String {
         "The {space} has dimension {}; {known}. The Euler–Jacobi theorem needs {needed}: {verdict}.",
         count.dimension,
     )
-}
-
-fn maps(survey: &Survey) -> Vec<SectionBlock> {
-    let mut found = Vec::new();
-    let row = |one: &TestedClaim, with_set: bool| {
-        let map = one.images.iter().map(|image| format!("{} ↦ {}", image.name, image.formula));
-        let map = map.collect::<Vec<_>>().join(", ");
-        let mut cells = vec![
-            TableCell::Text(one.claim.name.clone()),
-            TableCell::Formula(map, one.shown.statement.clone()),
-            TableCell::Text(one.claim.verdict.word().to_string()),
-        ];
-        if with_set {
-            cells.push(TableCell::Text(match one.fixed_set.map(|set| set.dimension) {
-                Some(Some(dimension)) => dimension.to_string(),
-                Some(None) => "empty".to_string(),
-                None => "–".to_string(),
-            }));
-        }
-        cells
-    };
-    if survey.reversors.is_empty() {
-        found.push(text(format!("No reversor was found among {}.", survey.maps_tried)));
-    } else {
-        found.push(text(
-            "Reversors, with the dimension of what they leave in place on the level set:",
-        ));
-        found.push(SectionBlock::Table {
-            head: vec!["reversor", "map", "verdict", "dimension"],
-            rows: survey.reversors.iter().map(|one| row(one, true)).collect(),
-        });
-    }
-    if !survey.symmetries.is_empty() {
-        found.push(text("Discrete symmetries:"));
-        found.push(SectionBlock::Table {
-            head: vec!["symmetry", "map", "verdict"],
-            rows: survey.symmetries.iter().map(|one| row(one, false)).collect(),
-        });
-    }
-    found
 }
 
 fn hamiltonian(survey: &Survey) -> Vec<SectionBlock> {

@@ -19,7 +19,7 @@ pub fn entry(tested: &TestedClaim) -> JudgedClaim {
     let map =
         |one: &liouville_search::survey::Definition| format!("{} ↦ {}", one.name, one.formula);
     let statement = match (claim.kind, tested.images.as_slice()) {
-        ("rate", [rate]) => Some(format!("d/dt {} = {}", rate.name, rate.formula)),
+        ("rate", [rate]) => Some(format!("({})' = {}", rate.name, rate.formula)),
         (_, []) => claim.formula.clone(),
         (_, images) => Some(images.iter().map(map).collect::<Vec<_>>().join(", ")),
     };
@@ -39,12 +39,13 @@ pub fn entry(tested: &TestedClaim) -> JudgedClaim {
         true => claim.kind.replace('-', " "),
         false => claim.name.clone(),
     };
+    let is_repeated = statement.as_ref() == Some(&name);
     JudgedClaim {
         mark: mark(claim.verdict),
         verdict: claim.verdict.word(),
-        statement: statement.filter(|text| *text != name),
+        statement: statement.filter(|_| !is_repeated),
         name,
-        layout: tested.shown.statement.clone(),
+        layout: tested.shown.statement.clone().filter(|_| !is_repeated),
         definitions,
         remarks: remarks(tested),
         source: claim.source.clone(),

@@ -99,7 +99,7 @@ fn entry(entry: &JudgedClaim) -> String {
     }
     out.push_str("</h3>\n");
     match (&entry.layout, &entry.statement) {
-        (Some(layout), Some(_)) => {
+        (Some(layout), _) => {
             out.push_str(&format!("<div class=\"scroll\">{}</div>\n", formula(layout, true)));
         }
         (None, Some(text)) => out.push_str(&format!("<p><code>{}</code></p>\n", escaped(text))),

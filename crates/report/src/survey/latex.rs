@@ -34,7 +34,13 @@ fn set(block: &SectionBlock) -> String {
         SectionBlock::Folded(_, lines) => small(lines),
         SectionBlock::Entry(entry) => self::entry(entry),
         SectionBlock::Table { head, rows } => {
-            let mut out = format!("\\begin{{longtable}}{{{}}}\n", "l".repeat(head.len()));
+            let is_formula = |column: usize| {
+                rows.iter().any(|row| matches!(row.get(column), Some(TableCell::Formula(..))))
+            };
+            // Formulas are broken into lines.
+            let columns: String =
+                (0..head.len()).map(|at| if is_formula(at) { "p{90mm}" } else { "l" }).collect();
+            let mut out = format!("\\begin{{longtable}}{{{columns}}}\n");
             out.push_str(&format!("{} \\\\\n\\hline\n", head.join(" & ")));
             for row in rows {
                 let cells: Vec<String> = row.iter().map(cell).collect();
@@ -88,7 +94,7 @@ fn entry(entry: &JudgedClaim) -> String {
     }
     out.push('\n');
     match (&entry.layout, &entry.statement) {
-        (Some(layout), Some(_)) => out.push_str(&format!("\\[ {} \\]\n", formula(layout))),
+        (Some(layout), _) => out.push_str(&format!("\\[ {} \\]\n", formula(layout))),
         (None, Some(text)) => {
             // Long ones are broken at their signs.
             out.push_str(&format!("\n{{\\sloppy\\texttt{{{}}}\\par}}\n\n", escaped(text)));

@@ -71,7 +71,7 @@ fn entry(entry: &JudgedClaim) -> String {
     }
     out.push_str("\n\n");
     match (&entry.layout, &entry.statement) {
-        (Some(layout), Some(_)) => out.push_str(&format!("$${}$$\n\n", formula(layout))),
+        (Some(layout), _) => out.push_str(&format!("$${}$$\n\n", formula(layout))),
         (None, Some(text)) => out.push_str(&format!("`{text}`\n\n")),
         _ => {}
     }

@@ -12,6 +12,7 @@ mod entry;
 mod html;
 mod latex;
 mod liouville;
+mod maps;
 mod markdown;
 mod picture;
 

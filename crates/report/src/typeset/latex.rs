@@ -13,15 +13,18 @@ pub fn formula(layout: &Layout) -> String {
         Layout::Number(digits) => digits.clone(),
         Layout::Name { letter, kind, index, primes } => name(letter, *kind, index, *primes),
         Layout::Word(word) if COMMANDS.contains(word) => format!("\\{word} "),
+        Layout::Word(word) if word.ends_with(':') => format!("\\text{{{word}}}"),
         Layout::Word(word) => format!("\\operatorname{{{word}}}"),
         Layout::Sign(sign) => command(sign),
         Layout::Space => "\\,".to_string(),
         Layout::Row(parts) => parts.iter().map(formula).collect::<Vec<_>>().join(" "),
         Layout::Fenced(open, inner, close) if inner.is_tall() => {
-            format!("\\left{open} {} \\right{close}", formula(inner))
+            format!("\\left{} {} \\right{}", fence(open), formula(inner), fence(close))
         }
         Layout::Fenced("|", inner, _) => format!("\\lvert {} \\rvert", formula(inner)),
-        Layout::Fenced(open, inner, close) => format!("{open}{}{close}", formula(inner)),
+        Layout::Fenced(open, inner, close) => {
+            format!("{}{}{}", fence(open), formula(inner), fence(close))
+        }
         Layout::Fraction(above, below) => {
             format!("\\frac{{{}}}{{{}}}", formula(above), formula(below))
         }
@@ -35,6 +38,14 @@ pub fn formula(layout: &Layout) -> String {
             let lines = rows.iter().map(line).collect::<Vec<_>>().join(" \\\\ ");
             format!("\\begin{{pmatrix}} {lines} \\end{{pmatrix}}")
         }
+    }
+}
+
+/// A bracket as it is typed.
+fn fence(sign: &str) -> String {
+    match sign {
+        "{" | "}" => format!("\\{sign}"),
+        sign => sign.to_string(),
     }
 }
 
@@ -76,6 +87,12 @@ fn letters_wide(layout: &Layout) -> f64 {
 fn command(sign: &str) -> String {
     match sign {
         "−" => "-".to_string(),
+        "∈" => "\\in".to_string(),
+        "±" => "\\pm".to_string(),
+        "≤" => "\\le".to_string(),
+        "→" => "\\to".to_string(),
+        "∂" => "\\partial".to_string(),
+        "…" => "\\dots".to_string(),
         "×" => "\\times".to_string(),
         "⊗" => "\\otimes".to_string(),
         "·" => "\\cdot".to_string(),

@@ -232,9 +232,7 @@ impl<'a> Counting<'a> {
         if dimension == space.dimension {
             return Ok(AbsenceOutcome::Excluded {
                 theorem: self.asked.theorem(&generated(self.asked, &self.class(), &space.terms)?),
-                counted: format!(
-                    "at most {dimension} linearly independent integrals, constants included: all known"
-                ),
+                counted: super::reports::all_known(dimension),
             });
         }
         let padded: Vec<Vec<u64>> = found

@@ -36,3 +36,13 @@ pub(super) fn report(claim: &AbsenceClaim, outcome: AbsenceOutcome) -> ClaimRepo
         evidence,
     }
 }
+
+/// Says that all integrals that are counted are known.
+pub fn all_known(dimension: usize) -> String {
+    match dimension {
+        1 => "no integrals but constants".to_string(),
+        more => format!(
+            "{more} linearly independent integrals at most, constants among them: all known"
+        ),
+    }
+}

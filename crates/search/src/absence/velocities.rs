@@ -104,9 +104,7 @@ fn no_integral(
     if known.dimension == dimension {
         return Ok(AbsenceOutcome::Excluded {
             theorem: asked.theorem(&generated(asked, &class, &known.formulas)?),
-            counted: format!(
-                "at most {dimension} linearly independent integrals, constants included: all known"
-            ),
+            counted: super::reports::all_known(dimension),
         });
     }
     let parts: [Part<'_>; 4] = [

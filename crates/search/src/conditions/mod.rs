@@ -75,12 +75,17 @@ use serde::Serialize;
 
 use super::lists::{self, ListedCase};
 use super::origin::ConditionOrigin;
+use super::terms::one;
 use super::{Effort, SearchError, SearchReport};
 pub use coordinates::components;
 use liouville::case::{Case, PlacedClaim};
+use liouville::claim::Claim;
+use liouville::mechanics::System;
 
 /// Largest number of combinations of listed values that are treated one by one.
 const MOST_LISTED: usize = 8;
+/// Statement that volumes are preserved.
+const VOLUMES: &str = "the density 1, div v = 0";
 /// Statement of the criterion.
 const CRITERION: &str = "a density ρ of the configuration exists";
 
@@ -128,9 +133,40 @@ pub fn conditions(
                 progress("conditions for a density of the configuration");
                 by_values(case, None, effort, report)?;
             }
-            velocities::conditions(case, effort, report, progress)
+            velocities::conditions(case, effort, report, progress)?;
+            volumes(case, effort, report, progress)
         }
     }
+}
+
+/// Finds the conditions under which a field preserves volumes, where no density is known.
+fn volumes(
+    case: &Case,
+    effort: &Effort,
+    report: &mut SearchReport,
+    progress: &mut dyn FnMut(&str),
+) -> Result<(), SearchError> {
+    let is_field = matches!(case.model.system, System::Field(_));
+    let is_known = report.formulas("density").next().is_some();
+    if !is_field || is_known || case.model.free_components() == 0 {
+        return Ok(());
+    }
+    progress("conditions for the density 1");
+    let Ok(asked) = case.with_claims(&[Claim::density(one()).named(VOLUMES)]) else {
+        return Ok(());
+    };
+    let Some(claim) = asked.claims.iter().find(|claim| claim.name == VOLUMES) else {
+        return Ok(());
+    };
+    let before = report.conditions.len();
+    by_values(&asked, Some(claim), effort, report)?;
+    // That there are none says nothing of other densities.
+    let mut place = 0;
+    report.conditions.retain(|own| {
+        place += 1;
+        place <= before || !own.equations.is_empty()
+    });
+    Ok(())
 }
 
 /// Finds the conditions for one claim, or for the criterion, for each combination of listed values.

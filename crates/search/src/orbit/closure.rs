@@ -82,8 +82,13 @@ pub fn close(case: &Case, effort: &Effort, report: &mut SearchReport) -> Result<
         return Ok(());
     };
     let independent = IndependentIntegrals::of(&setting, report)?;
-    let mut closure =
-        Closure { setting: &setting, algebra: &algebra, independent, all: Vec::new() };
+    let mut closure = Closure {
+        setting: &setting,
+        algebra: &algebra,
+        known: &known,
+        independent,
+        all: Vec::new(),
+    };
     let mut dependent = Vec::new();
     for (place, polynomial) in &algebra.integrals {
         match known.get(*place) {
@@ -125,6 +130,8 @@ pub fn close(case: &Case, effort: &Effort, report: &mut SearchReport) -> Result<
 struct Closure<'s, 'c> {
     setting: &'s OrbitSetting<'c>,
     algebra: &'s IntegralAlgebra,
+    /// Integrals known from the start, in the names of the case.
+    known: &'s [Formula],
     independent: IndependentIntegrals,
     all: Vec<OwnIntegral>,
 }
@@ -192,7 +199,7 @@ impl Closure<'_, '_> {
             && terms <= (2 * most_terms).min(MOST_TERMS[1])
             && (self.algebra.is_of_field(&candidate.polynomial)
                 || !self.setting.effort.terms.is_empty());
-        if !is_independent && !is_component {
+        if !is_independent && (!is_component || self.is_of_one(&formula)?) {
             return Ok(false);
         }
         let is_told = match is_independent {
@@ -267,6 +274,22 @@ impl Closure<'_, '_> {
             return Ok(false);
         };
         Ok(after > before)
+    }
+
+    /// Whether a function is one of a single known integral, as e^(−H) is.
+    fn is_of_one(&self, formula: &Formula) -> Result<bool, SearchError> {
+        let Some(formula) = claims::written_integral(self.setting, formula) else {
+            return Ok(false);
+        };
+        let case = claims::judged_case(self.setting);
+        for known in self.known {
+            let claim = Claim::independent(vec![known.clone(), formula.clone()]);
+            let judged = judged_alone(case, claim, self.setting.effort)?;
+            if judged.is_some_and(|own| own.verdict == Verdict::Refuted) {
+                return Ok(true);
+            }
+        }
+        Ok(false)
     }
 
     /// Whether the gradient of a function is independent of those of some integrals.

@@ -3,22 +3,19 @@
 //! (P ρ)∘Φ = P ρ is linear in the coefficients of P: one row for each random point modulo a prime. So the
 //! integrals of Lyness' and Todd's maps are found over x y and x y z.
 
-use liouville::formula::{Formula, FormulaError};
+use liouville::formula::Formula;
 use liouville::graph::Tape;
 
-use super::super::ansatz::coefficients::Ratio;
-use super::super::ansatz::monomials::power_product;
 use super::super::ansatz::note_unwritten;
 use super::super::ansatz::system::PrimePoint;
-use super::super::echelon::Echelon;
 use super::super::terms::recorded;
 use super::super::{SearchError, SearchReport};
 use super::claims;
-use super::images::{self, Images};
 use super::known::IndependentIntegrals;
+use super::map_rows::MapRows;
 use super::monomials::{self, value};
 use super::relations::combined_gradient;
-use super::setting::{OrbitSetting, PrimePhasePoint, SPARE_ORDERS, run};
+use super::setting::{OrbitSetting, PrimePhasePoint, run};
 use super::sparse::sparse;
 
 /// Highest degree of P.
@@ -71,7 +68,8 @@ impl WeightedSearch<'_, '_> {
     fn of_degree(&self, all: &[Vec<u32>], report: &mut SearchReport) -> Result<(), SearchError> {
         let setting = self.setting;
         let Some(at) = setting.at(0, 0) else { return Ok(()) };
-        let Some(echelon) = self.changes(&at, all)? else { return Ok(()) };
+        let rows = MapRows { setting, tape: self.tape, has_density: true };
+        let Some(echelon) = rows.echelon(&at, all)? else { return Ok(()) };
         let vectors = sparse(&at.modulus, echelon.null_space());
         let known = IndependentIntegrals::of(setting, report)?;
         let Some((point, mut gradients)) = known.gradients(setting, &at)? else { return Ok(()) };
@@ -84,23 +82,14 @@ impl WeightedSearch<'_, '_> {
             if !gradients.push(&at, gradient) {
                 continue;
             }
-            let make = |at: &PrimePoint| {
-                let vector = self.changes(at, &picked).ok()??.null_space().pop()?;
-                (vector.last() == Some(&at.modulus.one())).then_some(vector)
-            };
-            let images = Images { setting, width: support.len(), is_split: false, make };
-            let Some(coefficients) = images::coefficients(&images)? else {
-                let what = format!("an integral with {} terms over a density", support.len());
-                note_unwritten(setting.case, &what, report);
-                continue;
-            };
-            let functions: Vec<Ratio> = picked
-                .iter()
-                .map(|own| power_product(&setting.terms, own).map(Ratio::of))
-                .collect::<Result<_, FormulaError>>()?;
-            let places: Vec<usize> = (0..support.len()).collect();
-            if let Some(polynomial) = coefficients.sum(&places, &functions)? {
-                claims::integral(setting, &self.written(&polynomial)?, report)?;
+            match rows.solution(&picked)? {
+                Some(polynomial) => {
+                    claims::integral(setting, &self.written(&polynomial)?, report)?;
+                }
+                None => {
+                    let what = format!("an integral with {} terms over a density", support.len());
+                    note_unwritten(setting.case, &what, report);
+                }
             }
         }
         Ok(())
@@ -114,39 +103,6 @@ impl WeightedSearch<'_, '_> {
             Some(below) => (&polynomial.bracketed() / &below.bracketed())?,
             None => (&polynomial.bracketed() * self.density)?,
         })
-    }
-
-    /// Changes of the products of ρ and monomials at random points, reduced; `None` if the map has too few
-    /// points modulo the prime.
-    fn changes(
-        &self,
-        at: &PrimePoint,
-        monomials: &[Vec<u32>],
-    ) -> Result<Option<Echelon>, SearchError> {
-        let (m, dimension) = (at.modulus, self.setting.dimension());
-        let mut echelon = Echelon::new(monomials.len(), m);
-        let wanted = monomials.len() + SPARE_ORDERS;
-        let mut rows = 0;
-        // A root exists at half of all points.
-        for number in 0..4 * wanted as u64 {
-            self.setting.effort.halt.check()?;
-            let Some(point) = self.setting.point(at, number) else { continue };
-            let inputs = [point.parameters.as_slice(), &point.state].concat();
-            let Some(here) = run(self.tape, m, &inputs) else { continue };
-            let image = &here[..dimension];
-            let inputs = [point.parameters.as_slice(), image].concat();
-            let Some(there) = run(self.tape, m, &inputs) else { continue };
-            let change = |own: &Vec<u32>| {
-                let there = m.mul(there[dimension], value(&m, image, own));
-                m.sub(there, m.mul(here[dimension], value(&m, &point.state, own)))
-            };
-            echelon.push(monomials.iter().map(change).collect());
-            rows += 1;
-            if rows == wanted {
-                return Ok(Some(echelon));
-            }
-        }
-        Ok(None)
     }
 
     /// Gradient of P ρ at a point.

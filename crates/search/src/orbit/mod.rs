@@ -74,6 +74,7 @@ mod map_densities;
 mod map_fractions;
 mod map_integrals;
 mod map_products;
+mod map_rows;
 mod map_weighted;
 pub mod monomials;
 pub mod no_others;
@@ -358,7 +359,14 @@ fn along_orbits(
                 SearchError::Series { .. } => "no further Darboux polynomials",
                 _ => "no relations along orbits",
             };
-            report.remark(format!("{what}: {error}"));
+            let is_map = setting.case.model.system.is_map();
+            report.remark(match error {
+                SearchError::NoSeries if is_map => format!(
+                    "{what}: no orbit of the map modulo a prime was found: it contains functions, or roots \
+                     that few points have all"
+                ),
+                error => format!("{what}: {error}"),
+            });
             Ok(())
         }
         other => other,

@@ -1,57 +1,14 @@
 //! Description of the system: its functions, parameters and equations of motion, line by line.
 
 use liouville::case::Case;
-use liouville::formula::{Formula, Layout, Symbol, Type};
+use liouville::formula::{Formula, Layout, Type};
 use liouville::mechanics::{
-    BracketBlock, Lagrangian, Meaning, Model, ParameterOrigin, Potential, Shape, Surface, System,
+    Algebra, BracketBlock, Lagrangian, Meaning, Model, Potential, Shape, Surface, System,
     VariableRole,
 };
-use liouville::number::rational::Rational;
-use serde::{Serialize, Serializer};
+use serde::Serialize;
 
-/// A line of the description of a system; of a definition also as it is typeset.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SystemLine {
-    /// Text of the line, such as `h = R*|γ|`.
-    pub text: String,
-    /// The same typeset; `None` for words.
-    pub layout: Option<Layout>,
-}
-
-impl SystemLine {
-    fn words(text: impl Into<String>) -> Self {
-        Self { text: text.into(), layout: None }
-    }
-
-    /// Line that gives a name, or a function of an argument, a formula.
-    fn definition(model: &Model, name: &str, formula: &Formula) -> Self {
-        let names = |symbol: Symbol| model.vocabulary.entry(symbol).name.clone();
-        let (bare, argument) = match name.split_once('(') {
-            Some((bare, rest)) => (bare, rest.strip_suffix(')')),
-            None => (name, None),
-        };
-        let kind = formula.value_type();
-        let mut left = vec![Layout::name(bare, kind)];
-        left.extend(argument.map(|own| {
-            let kind = if own == "z" { Type::Scalar } else { Type::VECTOR };
-            Layout::Fenced("(", Box::new(Layout::name(own, kind)), ")")
-        }));
-        let layout = Layout::equation(Layout::Row(left), formula.layout(&names));
-        Self { text: format!("{name} = {}", formula.text()), layout: Some(layout) }
-    }
-}
-
-impl PartialEq<&str> for SystemLine {
-    fn eq(&self, other: &&str) -> bool {
-        self.text == *other
-    }
-}
-
-impl Serialize for SystemLine {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.serialize_str(&self.text)
-    }
-}
+use super::system_line::{SystemLine, boxes, parameters};
 
 /// Contents of a case that describe its system.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -59,7 +16,7 @@ pub struct Description {
     /// Functions and constants of the system, and the abbreviations in them.
     pub functions: Vec<SystemLine>,
     /// Parameters with their ranges or values.
-    pub parameters: Vec<String>,
+    pub parameters: Vec<SystemLine>,
     /// Equations of motion, and those of the level set.
     pub equations: Vec<SystemLine>,
 }
@@ -112,30 +69,26 @@ impl Description {
                     own.functions
                         .push(SystemLine::words(format!("force on {name} = {}", force.text())));
                 }
-                let equations = match (lagrangian.constraints.is_empty(), lagrangian.vakonomic) {
-                    (true, _) => "Lagrange's equations",
-                    (false, true) => "Lagrange's equations of T − U − Σ λᵢfᵢ",
-                    (false, false) => "Lagrange's equations with reactions Σ μᵢ ∂fᵢ/∂q'",
-                };
-                own.equations.push(SystemLine::words(equations));
-                own.carried(model, lagrangian);
+                own.lagrangian(model, lagrangian);
             }
             System::Hamiltonian(own_function) => {
                 own.function(model, "H", Some(&own_function.function));
                 for (variable, blocks) in model.state.iter().zip(&own_function.blocks) {
-                    let row = &variable.name;
+                    let row = variable.name.as_str();
                     // Of two vectors the unit matrix.
                     let unit = if variable.len() == 1 { "1" } else { "E" };
                     for (column, block) in model.state.iter().zip(blocks) {
-                        let column = &column.name;
+                        let column = column.name.as_str();
                         match block {
                             Some(BracketBlock::Given(formula)) => {
-                                let text = format!("{{{row},{column}}} = {}", formula.text());
-                                own.functions.push(SystemLine::words(text));
+                                let value = boxes(model, formula);
+                                let text = formula.text();
+                                own.functions.push(SystemLine::bracket([row, column], text, value));
                             }
                             Some(BracketBlock::Unit) => {
-                                let text = format!("{{{row},{column}}} = {unit}");
-                                own.functions.push(SystemLine::words(text));
+                                let kind = if unit == "1" { Type::Scalar } else { Type::MATRIX };
+                                let value = Layout::name(unit, kind);
+                                own.functions.push(SystemLine::bracket([row, column], unit, value));
                             }
                             Some(BracketBlock::Opposite(_) | BracketBlock::OppositeUnit) | None => {
                             }
@@ -148,10 +101,9 @@ impl Description {
         }
         own.further_rates(case);
         // An equation between vectors or matrices is several, and written once.
-        let mut level: Vec<String> =
-            model.level.iter().map(|own| format!("level: {}", own.written())).collect();
+        let mut level: Vec<&str> = model.level.iter().map(|own| own.written()).collect();
         level.dedup();
-        own.equations.extend(level.into_iter().map(SystemLine::words));
+        own.equations.extend(level.into_iter().map(|own| SystemLine::level(model, own)));
         own.abbreviations(model);
         own
     }
@@ -233,6 +185,37 @@ impl Description {
         }
     }
 
+    /// Adds the form of Lagrange's equations, the quasi-velocities with their algebra, and the rates of
+    /// coordinates.
+    fn lagrangian(&mut self, model: &Model, own: &Lagrangian) {
+        let is_velocity = |role: &VariableRole| matches!(role, VariableRole::Velocity);
+        let pairs = model.state.iter().zip(&own.roles).filter(|(_, role)| is_velocity(role));
+        let velocities: Vec<&str> = pairs.map(|(variable, _)| variable.name.as_str()).collect();
+        let velocities = velocities.join(", ");
+        let (momenta, names) = match own.algebra {
+            Algebra::Commuting => ("q'", String::new()),
+            Algebra::Rotations(_) | Algebra::Frame => {
+                ("w", format!(" in the quasi-velocities w = ({velocities})"))
+            }
+        };
+        let reactions = match (own.constraints.is_empty(), own.vakonomic) {
+            (true, _) => String::new(),
+            (false, true) => " of T − U − Σ λᵢfᵢ".to_string(),
+            (false, false) => format!(" with reactions Σ μᵢ ∂fᵢ/∂{momenta}"),
+        };
+        self.equations.push(SystemLine::words(format!("Lagrange's equations{reactions}{names}")));
+        self.equations.extend(match own.algebra {
+            Algebra::Commuting => None,
+            Algebra::Rotations(_) => Some(SystemLine::words(format!(
+                "the quasi-velocities are an angular velocity, algebra so(3): P' = P × {velocities} + …, P = ∂T/∂{velocities}"
+            ))),
+            Algebra::Frame => Some(SystemLine::words(
+                "the terms of their commutators follow from the rates of the coordinates",
+            )),
+        });
+        self.carried(model, own);
+    }
+
     /// Adds the rates of coordinates that are given by quasi-velocities.
     fn carried(&mut self, model: &Model, lagrangian: &Lagrangian) {
         for (variable, role) in model.state.iter().zip(&lagrangian.roles) {
@@ -290,54 +273,9 @@ impl Description {
     }
 }
 
-/// Largest number of decimal places that are printed.
-const MOST_PLACES: usize = 24;
-
-/// A number as a decimal, if it ends, and otherwise as a fraction.
-fn decimal(value: &Rational) -> String {
-    let (mut scaled, ten) = (value.abs(), Rational::from(10));
-    for places in 0..=MOST_PLACES {
-        if let Some(whole) = scaled.to_integer() {
-            let digits = format!("{whole:0>width$}", width = places + 1);
-            let (before, after) = digits.split_at(digits.len() - places);
-            let sign = if value.is_negative() { "-" } else { "" };
-            let dot = if places == 0 { "" } else { "." };
-            return format!("{sign}{before}{dot}{after}");
-        }
-        scaled = &scaled * &ten;
-    }
-    value.to_string()
-}
-
-/// Parameters with what the case says of each.
-fn parameters(case: &Case) -> Vec<String> {
-    let own = case.model.parameters.iter().filter(|parameter| !parameter.name.contains('['));
-    own.map(|parameter| {
-        let value = match &parameter.origin {
-            ParameterOrigin::Fixed(values) => {
-                let values: Vec<String> = values.iter().map(decimal).collect();
-                format!("= {}", parameter.kind.listed(&values, ["(", ", ", ")"]))
-            }
-            ParameterOrigin::Formula(formula) => format!("= {}", formula.text()),
-            ParameterOrigin::Free(recipe) => format!("in {}", recipe.text()),
-        };
-        format!("{} {value}", parameter.name)
-    })
-    .collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn numbers_are_the_decimals_of_the_file() {
-        let shown = |text: &str| decimal(&text.parse().expect("a number"));
-        for text in ["0.0121505856", "-9.81", "12", "1/3", "-0.05"] {
-            assert_eq!(shown(text), text);
-        }
-        assert_eq!(shown("3/8"), "0.375");
-    }
 
     #[test]
     fn definitions_say_what_files_say() {
@@ -347,8 +285,10 @@ mod tests {
         let own = Description::of(&Case::parse(text, &[]).expect("a case"));
         assert_eq!(own.functions, ["h(γ) = R*|γ| + (c,γ)", "U(γ) = m*a_g*h"]);
         assert_eq!(own.parameters[0], "m in 0.5..2");
-        assert!(own.parameters.contains(&"a_g in one of 1, 2".to_string()), "{own:?}");
-        assert!(own.parameters.contains(&"I in inertia(0.5..5)".to_string()), "{own:?}");
+        for line in ["a_g in one of 1, 2", "I in inertia(0.5..5)"] {
+            assert!(own.parameters.iter().any(|one| *one == line), "{own:?}");
+        }
+        assert!(own.parameters[0].layout.is_some(), "a range is typeset");
         assert_eq!(own.equations[0], "Ĩω' = Ĩω×ω − m r×(ω×r') + M_P + λγ");
         assert!(own.equations.iter().any(|one| *one == "level: |γ| = 1"), "{own:?}");
         let text = text.replace("shape = 'ball'", "shape = 'ball'\nframe = 'Q'\ntrack = 'X'");
@@ -362,6 +302,7 @@ mod tests {
         let text = "title = 't'\n[state]\nx = '-1..1'\np = '-1..1'\n[hamiltonian]\nfunction = 'p^2'\npairs = [['x', 'p']]\n";
         let own = Description::of(&Case::parse(text, &[]).expect("a case"));
         assert_eq!(own.functions, ["H = p^2", "{x,p} = 1"]);
+        assert!(own.functions.iter().all(|line| line.layout.is_some()), "{own:?}");
         let text = "title = 't'\n[state]\nq = 'vector(2, -1..1)'\nw = 'vector(2, -1..1)'\n[field]\n\
                     \"q[1]'\" = 'w1'\n\"q[2]'\" = '−w2'\n\"w'\" = '0*w'\n[level]\nequations = ['w = [1, 2]']\n";
         let own = Description::of(&Case::parse(text, &[]).expect("a case"));
@@ -379,5 +320,7 @@ mod tests {
         assert_eq!(texts, ["V = v^2", "W = V + w", "T = m*W/2 + w^2"]);
         assert!(own.functions.iter().all(|line| line.layout.is_some()), "all are typeset");
         assert!(own.equations.iter().any(|one| *one == "x' = v*cos(f)"), "{own:?}");
+        let first = "Lagrange's equations in the quasi-velocities w = (v, w)";
+        assert_eq!(own.equations[0], first);
     }
 }

@@ -15,6 +15,8 @@ pub enum MeasureStatus {
     Excluded,
     /// Proved not to exist, if continuous and positive near a permanent rotation.
     ExcludedAtRotation,
+    /// Proved not to exist, if continuous and positive near the rest at 0.
+    ExcludedAtRest,
     /// Proved not to exist as a function of the configuration alone; otherwise unknown.
     ExcludedForConfiguration,
     /// Found with zeros or poles; no positive density is known.
@@ -119,12 +121,18 @@ impl HierarchyPlace {
             (MeasureStatus::ClosedForm | MeasureStatus::ByQuadrature, false) => {
                 HierarchyClass::MeasureOnly
             }
-            (MeasureStatus::Excluded | MeasureStatus::ExcludedAtRotation, true) => {
-                HierarchyClass::IntegralOnly
-            }
-            (MeasureStatus::Excluded | MeasureStatus::ExcludedAtRotation, false) => {
-                HierarchyClass::Neither
-            }
+            (
+                MeasureStatus::Excluded
+                | MeasureStatus::ExcludedAtRotation
+                | MeasureStatus::ExcludedAtRest,
+                true,
+            ) => HierarchyClass::IntegralOnly,
+            (
+                MeasureStatus::Excluded
+                | MeasureStatus::ExcludedAtRotation
+                | MeasureStatus::ExcludedAtRest,
+                false,
+            ) => HierarchyClass::Neither,
             (
                 MeasureStatus::ExcludedForConfiguration
                 | MeasureStatus::Singular
@@ -167,13 +175,17 @@ fn grounds_of(measure: MeasureStatus) -> &'static str {
             "no measure: near a permanent rotation no density is continuous and positive; one with \
              singularities there is not excluded"
         }
+        MeasureStatus::ExcludedAtRest => {
+            "no measure: near the rest at 0, where volumes change, no density is continuous and positive; \
+             one with singularities there is not excluded"
+        }
         MeasureStatus::ExcludedForConfiguration => {
             "a measure: not known; no density of the configuration alone exists, one that depends on \
              the velocities is open"
         }
         MeasureStatus::Singular => {
-            "a measure: not known; an invariant density was found, with zeros or poles, and is a measure \
-             apart from them"
+            "a measure: on each part between the zeros and poles of an invariant density, which no motion \
+             crosses; on all of the states none is known"
         }
         MeasureStatus::WithTime => {
             "a measure: not known; the density that was found contains t, so that volumes in the space of \

@@ -6,6 +6,7 @@
 //! potential, the map is a symmetry (BMB 2013, A.1.2-A.1.13); the prover decides each case.
 
 use super::exchanges::exchanges;
+use super::fixed_sets::{distinct_on_level, on_level};
 use super::mirrors::Mirror;
 use super::question::{FixedSet, SurveyQuestion, TestedClaim};
 use super::sign_changes::sign_changes;
@@ -33,14 +34,23 @@ pub(super) struct MapCandidate {
 
 /// Finds reversors and symmetries and proves them, reversors first; refuted candidates are omitted.
 pub fn find(case: &Case, options: &Options) -> Result<Vec<TestedClaim>, JudgeError> {
-    let candidates = candidates(case, options.seed);
+    let candidates = distinct_on_level(case, options.seed, candidates(case, options.seed));
     let claim = |one: &MapCandidate| Claim::of(one.key, one.images.clone()).named(&one.name);
     let claims = candidates.iter().map(claim).collect();
     let question = SurveyQuestion::plain("maps of the frame", &[], claims);
     let mut found = question.ask(case, options)?.unwrap_or_default();
     for (tested, candidate) in found.iter_mut().zip(&candidates) {
+        if !tested.holds() || candidate.key != Reversor::NAME {
+            continue;
+        }
         // Variables that the case adds, as a frame, are not counted.
-        tested.fixed_set = candidate.fixed_set.filter(|_| case.model.extension.is_empty());
+        if !case.model.extension.is_empty() {
+            continue;
+        }
+        tested.fixed_set = match (candidate.fixed_set, case.model.level.is_empty()) {
+            (None, false) => on_level(case, candidate, options.seed),
+            (known, _) => known,
+        };
     }
     found.retain(TestedClaim::holds);
     Ok(found)

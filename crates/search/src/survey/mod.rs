@@ -22,6 +22,7 @@ mod description;
 mod drawn_states;
 mod exchanges;
 mod family;
+mod fixed_sets;
 mod geometry;
 mod hamiltonian;
 mod hierarchy;
@@ -34,6 +35,7 @@ mod shown;
 mod sign_changes;
 mod sorted;
 mod sphere;
+mod system_line;
 mod unknown;
 mod wireframe;
 mod words;
@@ -44,13 +46,15 @@ mod tests;
 use serde::Serialize;
 
 use liouville::case::{Case, CaseRemark, Expect};
-use liouville::mechanics::TIME;
-use liouville::verdict::{JudgeError, Options, Verdict};
+use liouville::claim::{Claim, NoDensityNear, Statement};
+use liouville::formula::Formula;
+use liouville::mechanics::{System, TIME};
+use liouville::verdict::{JudgeError, Options, Verdict, judge};
 use liouville_flow::observe::evidence_against_density;
 
 pub use by_value::ValuePlace;
 pub use definitions::Definition;
-pub use description::{Description, SystemLine};
+pub use description::Description;
 pub use geometry::GeometryFact;
 pub use hierarchy::{HierarchyClass, HierarchyPlace, Integrals, MeasureStatus};
 pub use independence::IntegralCount;
@@ -58,6 +62,7 @@ pub use integrable::LiouvilleProof;
 pub use question::{FixedSet, TestedClaim};
 pub use shown::Shown;
 pub use sphere::SphereMap;
+pub use system_line::SystemLine;
 pub use unknown::{SearchOutcome, of_search};
 pub use wireframe::Wireframe;
 pub use words::GivenParameter;
@@ -118,6 +123,12 @@ pub struct Survey {
     /// Integrals in involution, if they are as many as the theorem of Liouville needs.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub liouville: Option<LiouvilleProof>,
+    /// Darboux polynomials, whose zeros are invariant surfaces.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub surfaces: Vec<TestedClaim>,
+    /// Functions of constant rate.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub drifts: Vec<TestedClaim>,
     /// Symmetry fields.
     pub fields: Vec<TestedClaim>,
     /// Reversors, with the dimensions of their fixed sets.
@@ -226,7 +237,12 @@ fn of_all_values(
     let from_family = sorted.densities.iter().any(|one| one.is_measure() && one.is_of_family());
     sorted.densities.retain(|one| !from_family || one.is_of_family());
     sorted.densities.retain(|one| !unknown::is_claimed_density(case, options, &one.claim));
-    let measure = measure(case, &sorted);
+    let measure = match measure(case, &sorted) {
+        MeasureStatus::NotKnown if changes_volumes_at_zero(case, options) => {
+            MeasureStatus::ExcludedAtRest
+        }
+        known => known,
+    };
     let hamiltonian = match sorted.densities.iter().find(|one| one.is_measure()) {
         Some(density) => hamiltonian::form(case, options, &geometry.bindings, density)?,
         None => Vec::new(),
@@ -246,7 +262,10 @@ fn of_all_values(
         MeasureStatus::Excluded
         | MeasureStatus::ExcludedAtRotation
         | MeasureStatus::ExcludedForConfiguration => sphere::criterion(case, options)?,
-        MeasureStatus::Singular | MeasureStatus::WithTime | MeasureStatus::NotKnown => None,
+        MeasureStatus::ExcludedAtRest
+        | MeasureStatus::Singular
+        | MeasureStatus::WithTime
+        | MeasureStatus::NotKnown => None,
     };
     let model = &case.model;
     let is_autonomous = model.state.iter().all(|variable| variable.name != TIME);
@@ -292,6 +311,8 @@ fn of_all_values(
         rates: sorted.rates,
         independence: independent.count,
         liouville,
+        surfaces: sorted.surfaces,
+        drifts: sorted.drifts,
         fields: sorted.fields,
         reversors,
         maps_tried: exchanges::tried(case),
@@ -304,6 +325,15 @@ fn of_all_values(
         warnings: own.warnings,
         remarks,
     })
+}
+
+/// Whether 0 is proved to be a rest of a field at which no density is continuous and positive.
+fn changes_volumes_at_zero(case: &Case, options: &Options) -> bool {
+    let is_field = matches!(case.model.system, System::Field(_));
+    let at_zero = Claim::of(NoDensityNear::NAME, Vec::<(String, Formula)>::new());
+    let judged = case.with_claims(&[at_zero]).ok().filter(|_| is_field);
+    let judged = judged.and_then(|asked| judge(&asked, options).ok());
+    judged.is_some_and(|own| own.claims.iter().all(|own| own.verdict == Verdict::Proved))
 }
 
 /// Judges the claims of all families that apply; returns them with the integrals that follow

@@ -11,7 +11,7 @@ use super::definitions::{Definition, define, defined, distinct, used_by};
 use super::family::SystemFamily;
 use super::shown::{Shown, Typesetter};
 use liouville::case::Case;
-use liouville::claim::{Claim, ClaimEntry};
+use liouville::claim::{Claim, ClaimEntry, Statement, SymmetryField};
 use liouville::mechanics::{Meaning, TIME};
 use liouville::verdict::{
     ClaimReport, DensitySign, Flaw, Independence, JudgeError, Options, Verdict, judge,
@@ -107,10 +107,22 @@ impl TestedClaim {
             }
             _ => None,
         });
-        let mut claims = case.homes().flat_map(|home| &home.claims);
-        let own = claims.find(|own| own.name == claim.name && own.kind.name() == claim.kind);
-        let remark = own.and_then(|own| own.kind.particulars());
-        Self { remark, ..Self::beside(OWN, case, claim, abbreviations.collect()) }
+        let mut claims =
+            case.homes().flat_map(|home| home.claims.iter().map(move |own| (home, own)));
+        let own = claims.find(|(_, own)| own.name == claim.name && own.kind.name() == claim.kind);
+        let mut tested = Self::beside(OWN, case, claim, abbreviations.collect());
+        if let Some((home, own)) = own {
+            tested.remark = own.kind.particulars();
+            let layout = own.kind.layout(&home.model);
+            tested.shown.statement = layout.or(tested.shown.statement);
+        }
+        tested
+    }
+
+    /// The same with the components of a vector field by variable.
+    pub(crate) fn with_field(mut self, case: &Case, components: &[Definition]) -> Self {
+        self.shown.statement = Typesetter(&case.model.vocabulary).field(components);
+        self
     }
 
     /// Makes a finding from a result of the search, with the names that its formula may use.
@@ -137,6 +149,16 @@ impl TestedClaim {
             is_general: false,
             shown,
         }
+    }
+
+    /// The same with its rate, or its cofactor.
+    pub(crate) fn with_rate(mut self, case: &Case, what: &str, rate: &str) -> Self {
+        let paper = Typesetter(&case.model.vocabulary);
+        self.shown.statement = match what {
+            "rate" => paper.rate(self.formula(), rate),
+            _ => paper.zeros(self.formula(), rate),
+        };
+        self
     }
 
     /// Whether the finding comes from a family, rather than from the case or the search.
@@ -206,7 +228,18 @@ impl TestedClaim {
             return self.claim.name.clone();
         }
         match self.formula().char_indices().nth(LABEL) {
-            Some((end, _)) => format!("{}…", self.formula()[..end].trim_end()),
+            Some((end, _)) => {
+                let start = &self.formula()[..end];
+                let depth = |text: &str| {
+                    text.matches('(').count().saturating_sub(text.matches(')').count())
+                };
+                let whole = [" + ", " − "].iter().filter_map(|sign| start.rfind(sign));
+                let whole = whole.map(|place| &start[..place]).max_by_key(|own| own.len());
+                match whole.filter(|own| depth(own) == 0) {
+                    Some(own) => format!("{own} + …"),
+                    None => format!("{}…", start.trim_end()),
+                }
+            }
             None => self.formula().to_string(),
         }
     }
@@ -310,6 +343,7 @@ impl SurveyQuestion {
             (_, [rate]) if is_rate => paper.rate(&rate.name, &rate.formula),
             (Some(formula), _) => paper.formula(formula),
             (None, []) => None,
+            (None, images) if claim.kind == SymmetryField::NAME => paper.field(images),
             (None, images) => paper.images(images),
         };
         TestedClaim {

@@ -34,23 +34,29 @@ impl Typesetter<'_> {
             let (right, kind) = self.typed(&one.formula)?;
             Some(Layout::image(Layout::name(&one.name, kind), right))
         });
-        let mut row = Vec::new();
-        for image in each.collect::<Option<Vec<_>>>()? {
-            if !row.is_empty() {
-                row.extend([Layout::Sign(","), Layout::Space]);
-            }
-            row.push(image);
-        }
-        Some(Layout::Row(row))
+        Some(Layout::listed(each.collect::<Option<Vec<_>>>()?))
     }
 
     /// Typesets the rate of a function and its value.
     pub fn rate(&self, function: &str, rate: &str) -> Option<Layout> {
-        let (function, rate) = (self.formula(function)?, self.formula(rate)?);
-        let parts = vec![Layout::Word("d"), Layout::Space, function];
-        let below = vec![Layout::Word("d"), Layout::name("t", Type::Scalar)];
-        let left = Layout::Fraction(Box::new(Layout::Row(parts)), Box::new(Layout::Row(below)));
-        Some(Layout::equation(left, rate))
+        let function = self.read(function)?.layout_of_factor(&|symbol| self.name(symbol));
+        Some(Layout::equation(Layout::rate(function), self.formula(rate)?))
+    }
+
+    /// Typesets the zeros of a Darboux polynomial, with its cofactor κ.
+    pub fn zeros(&self, function: &str, cofactor: &str) -> Option<Layout> {
+        let zero = Layout::Number("0".to_string());
+        let zeros = Layout::equation(self.formula(function)?, zero);
+        let cofactor = Layout::equation(Layout::name("κ", Type::Scalar), self.formula(cofactor)?);
+        Some(Layout::listed([zeros, cofactor]))
+    }
+
+    /// Typesets a vector field as a derivation.
+    pub fn field(&self, components: &[Definition]) -> Option<Layout> {
+        let read = |own: &Definition| Some((own.name.clone(), self.read(&own.formula)?));
+        let parts = components.iter().map(read).collect::<Option<Vec<_>>>()?;
+        let parts = parts.iter().map(|(name, own)| (name.as_str(), own));
+        Some(Layout::derivation(parts, &|symbol| self.name(symbol)))
     }
 
     /// Typesets all definitions that can be read.
@@ -59,8 +65,15 @@ impl Typesetter<'_> {
     }
 
     fn typed(&self, text: &str) -> Option<(Layout, Type)> {
-        let formula = Formula::parse(text, self.0 as &dyn Scope).ok()?;
-        let name = |symbol: Symbol| self.0.entry(symbol).name.clone();
-        Some((formula.layout(&name), formula.value_type()))
+        let formula = self.read(text)?;
+        Some((formula.layout(&|symbol| self.name(symbol)), formula.value_type()))
+    }
+
+    fn read(&self, text: &str) -> Option<Formula> {
+        Formula::parse(text, self.0 as &dyn Scope).ok()
+    }
+
+    fn name(&self, symbol: Symbol) -> String {
+        self.0.entry(symbol).name.clone()
     }
 }

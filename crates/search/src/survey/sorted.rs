@@ -2,6 +2,7 @@
 
 use super::hierarchy::MeasureStatus;
 use super::question::TestedClaim;
+use crate::orbit::{CONSTANT_RATE, DARBOUX};
 use liouville::case::Case;
 use liouville::verdict::Verdict;
 
@@ -20,6 +21,10 @@ pub struct Sorted {
     pub rates: Vec<TestedClaim>,
     /// Symmetry fields.
     pub fields: Vec<TestedClaim>,
+    /// Darboux polynomials, whose zeros are invariant surfaces.
+    pub surfaces: Vec<TestedClaim>,
+    /// Functions of constant rate.
+    pub drifts: Vec<TestedClaim>,
     /// Refuted claims.
     pub fails: Vec<TestedClaim>,
     /// Claims without a proof.
@@ -50,6 +55,8 @@ impl Sorted {
                 "integral" => &mut sorted.general,
                 "symmetry-field" => &mut sorted.fields,
                 "rate" => &mut sorted.rates,
+                DARBOUX => &mut sorted.surfaces,
+                CONSTANT_RATE => &mut sorted.drifts,
                 _ => continue,
             };
             place.push(tested);

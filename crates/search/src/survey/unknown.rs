@@ -85,7 +85,7 @@ impl SearchOutcome {
 /// Source of what the search has found.
 const OF_SEARCH: &str = "found by the search";
 
-/// Whether a density of the search is proved to be one that the case claims.
+/// Whether a density of the search is proved to be one that the case claims, up to a factor.
 pub fn is_claimed_density(case: &Case, options: &Options, found: &ClaimReport) -> bool {
     if found.kind != "density" || found.source != OF_SEARCH {
         return false;
@@ -95,14 +95,17 @@ pub fn is_claimed_density(case: &Case, options: &Options, found: &ClaimReport) -
     };
     let claimed = case.claims.iter().filter(|claim| claim.kind.name() == "density");
     claimed.filter_map(|claim| claim.kind.formula()).any(|other| {
-        let judged = case.judge(&[Claim::identity(&own, other)], options);
-        judged.is_ok_and(|judged| judged.claims.iter().all(|own| own.verdict == Verdict::Proved))
+        // They are the same up to a factor where their quotient is constant.
+        let Ok(quotient) = &own.bracketed() / &other.bracketed() else { return false };
+        let judged = case.judge(&[Claim::independent(vec![quotient])], options);
+        judged.is_ok_and(|judged| judged.claims.iter().all(|own| own.verdict == Verdict::Refuted))
     })
 }
 
 /// Makes a finding from a result of the search, with the names that the search added.
 pub fn of_search(case: &Case, found: Found) -> TestedClaim {
     let names = found.abbreviations.iter().map(|(name, text)| define(name, text)).collect();
+    let field: Vec<_> = found.fields.iter().map(|(name, own)| define(name, own.text())).collect();
     let claim = ClaimReport {
         name: found.kind.replace('-', " "),
         formula: Some(found.formula),
@@ -121,5 +124,11 @@ pub fn of_search(case: &Case, found: Found) -> TestedClaim {
     let with = found.with.iter().map(|(what, text)| format!("with the {what} {text}"));
     let with: Vec<String> = with.collect();
     let remark = (!with.is_empty()).then(|| with.join("; "));
-    TestedClaim { values, remark, ..TestedClaim::found(case, claim, names) }
+    let tested = TestedClaim { values, remark, ..TestedClaim::found(case, claim, names) };
+    let rate = found.with.iter().find(|(what, _)| matches!(*what, "rate" | "cofactor"));
+    match rate {
+        Some((what, rate)) => tested.with_rate(case, what, rate),
+        None if field.is_empty() => tested,
+        None => tested.with_field(case, &field),
+    }
 }

@@ -6,7 +6,7 @@ use liouville::proof::{MOST_POLYNOMIAL_WORK, Polynomial};
 use super::fraction::Fraction;
 use super::reader::Reader;
 
-/// The fraction in hyperbolic functions of one argument; `None` if it is none, or if the file has none.
+/// The fraction in hyperbolic functions; `None` if it is none in these, or if the file has none.
 pub fn turned(reader: &mut Reader<'_>, own: &Fraction) -> Option<Fraction> {
     if !reader.named.has_hyperbolic() {
         return None;
@@ -16,34 +16,51 @@ pub fn turned(reader: &mut Reader<'_>, own: &Fraction) -> Option<Fraction> {
     tokens.sort_unstable();
     tokens.dedup();
     let argument = |text: &str| Some(text.strip_prefix("exp(")?.strip_suffix(')')?.to_string());
-    let mut exponentials = Vec::new();
+    let mut open = Vec::new();
     for token in tokens {
         if let Some(argument) = argument(reader.tokens.text(token)) {
-            exponentials.push((token, argument));
+            open.push((token, argument));
         }
     }
-    let (first, inverse) = match exponentials.as_slice() {
-        [one] => (one.clone(), None),
-        [one, other] => {
-            let sum = reader.read(&format!("({}) + ({})", one.1, other.1))?;
-            if !sum.above.is_zero() {
-                return None;
+    let mut found: Option<Fraction> = None;
+    while let Some((token, argument)) = open.pop() {
+        let mut partner = None;
+        for (place, (_, other)) in open.iter().enumerate() {
+            if reader.read(&format!("({argument}) + ({other})"))?.above.is_zero() {
+                partner = Some(place);
+                break;
             }
-            let is_negative = |text: &str| text.starts_with(['−', '-']);
-            let (one, other) = if is_negative(&one.1) { (other, one) } else { (one, other) };
-            (one.clone(), Some(other.0))
         }
-        _ => return None,
-    };
-    let (exponential, argument) = first;
+        let partner = partner.map(|place| open.remove(place));
+        let rank = |text: &str| (text.starts_with(['−', '-']), text.to_string());
+        let (exponential, argument, inverse) = match partner {
+            Some((other, text)) if rank(&text) < rank(&argument) => (other, text, Some(token)),
+            Some((other, _)) => (token, argument, Some(other)),
+            None => (token, argument, None),
+        };
+        let before = found.as_ref().unwrap_or(own).clone();
+        if let Some(next) = turned_in(reader, &before, (exponential, inverse), &argument) {
+            found = Some(next);
+        }
+    }
+    found
+}
+
+/// The fraction in hyperbolic functions of one argument.
+fn turned_in(
+    reader: &mut Reader<'_>,
+    own: &Fraction,
+    (exponential, inverse): (u32, Option<u32>),
+    argument: &str,
+) -> Option<Fraction> {
     let (above, upper) = centred(&own.above, exponential, inverse)?;
     let (below, lower) = centred(&own.below, exponential, inverse)?;
     // Powers of e^u that are left over have no place in such functions.
     if upper != lower {
         return None;
     }
-    let above = in_functions(reader, &above, &argument)?;
-    let below = in_functions(reader, &below, &argument)?;
+    let above = in_functions(reader, &above, argument)?;
+    let below = in_functions(reader, &below, argument)?;
     Fraction { above, below }.reduced()
 }
 

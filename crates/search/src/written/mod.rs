@@ -4,28 +4,37 @@
 //! tokens     names, functions and inner products of a formula as variables
 //! fraction   fractions of polynomials in these
 //! reader     texts as fractions
+//! circular   even powers of sines and cosines as those of the other
 //! hyperbolic exponentials e^u and e^(−u) as cosh u and sinh u
 //! writer     fractions as texts
+//! products   texts of products and quotients
 //! named      expressions of the file that occur as factors
 //! squares    sums of squares of differences
+//! square_sums squares of sums of monomials, and what is left
+//! masses     the determinant of the masses on constraints
 //! shifts     additive constants that shorten an integral
 //! ```
 //!
 //! A text takes the place of another where it is shorter, and proved to be the same up to a constant.
 
+mod circular;
 mod fraction;
 mod hyperbolic;
+mod masses;
 mod named;
+mod products;
 mod reader;
 mod shifts;
+mod square_sums;
 mod squares;
 mod tokens;
 mod writer;
 
 use liouville::case::Case;
 use liouville::claim::Claim;
-use liouville::formula::Type;
-use liouville::proof::MOST_POLYNOMIAL_WORK;
+use liouville::formula::{Formula, Type};
+use liouville::number::rational::Rational;
+use liouville::proof::{MOST_POLYNOMIAL_WORK, Polynomial};
 use liouville::verdict::Verdict;
 
 use super::ask::judged_alone;
@@ -33,6 +42,7 @@ use super::leading::replaced;
 use super::orbit::{CONSTANT_RATE, DARBOUX, FURTHER_INTEGRAL};
 use super::{Effort, Found, SearchError, SearchReport};
 use fraction::Fraction;
+pub use masses::densities as mass_densities;
 use reader::Reader;
 use writer::{Constants, Written};
 
@@ -42,6 +52,7 @@ const LONGEST: usize = 4000;
 /// Writes the finds of a report anew where that makes them shorter.
 pub fn shorten(case: &Case, effort: &Effort, report: &mut SearchReport) -> Result<(), SearchError> {
     let mut reader = Reader::new(case);
+    let mut spoiled = Vec::new();
     for place in 0..report.found.len() {
         effort.halt.check()?;
         if let Some(freed) = without_integrals(&mut reader, effort, report, place)? {
@@ -54,8 +65,52 @@ pub fn shorten(case: &Case, effort: &Effort, report: &mut SearchReport) -> Resul
             own.theorem = replaced(&own.theorem, &before.formula, &after);
             own.ansatz = replaced(&own.ansatz, &before.formula, &after);
         }
+        if !after.contains(&before.formula) && before.kind == "integral" {
+            spoiled.push(before.formula);
+        }
     }
+    // P is one of P + cQ, of which another has the factors.
+    let is_spoiled = |own: &Found| {
+        own.kind == DARBOUX
+            && spoiled.iter().any(|text| text.starts_with(&format!("({})/", own.formula)))
+    };
+    report.found.retain(|own| !is_spoiled(own));
     Ok(())
+}
+
+/// The shortest form of a formula, with its constant factors; `None` where that is not read.
+pub fn shortest(case: &Case, formula: &Formula) -> Option<Formula> {
+    let text = formula.text();
+    let mut reader = Reader::new(case);
+    let read = (text.len() <= LONGEST).then(|| reader.read(text))??;
+    let own = writer::written(&mut reader, &read, Constants::Kept)?;
+    case.formula(&own.text).ok()
+}
+
+/// Darboux polynomials of a report, which may be factors.
+fn darboux_polynomials(reader: &mut Reader<'_>, report: &SearchReport) -> Vec<Polynomial> {
+    let own = report.found.iter().filter(|own| own.kind == DARBOUX && own.abbreviations.is_empty());
+    own.filter(|own| own.formula.len() <= LONGEST)
+        .filter_map(|own| reader.read(&own.formula))
+        .filter(|own| own.is_polynomial() && own.above.number().is_none())
+        .map(|own| own.above)
+        .collect()
+}
+
+/// Whether a fraction is infinite at most where several squares vanish together, as 1/(x² + y²).
+pub fn has_small_poles(case: &Case, formula: &Formula) -> bool {
+    let text = formula.text();
+    let mut reader = Reader::new(case);
+    let Some(read) = (text.len() <= LONGEST).then(|| reader.read(text)).flatten() else {
+        return false;
+    };
+    let is_sum = |own: &Polynomial| {
+        let is_square = |(value, powers): (&Rational, &[(u32, u32)])| {
+            !value.is_negative() && powers.iter().all(|(_, power)| power % 2 == 0)
+        };
+        own.size() > 1 && own.terms().all(is_square)
+    };
+    read.below.factors().iter().all(is_sum)
 }
 
 /// A function of constant rate over an integral that divides it: that is simpler, and has a constant rate as well.
@@ -129,8 +184,9 @@ fn changed(
     let mut shifts = Vec::new();
     if is_shifted {
         let turned = hyperbolic::turned(reader, &read);
+        let divisors = darboux_polynomials(reader, report);
         for own in std::iter::once(&read).chain(&turned) {
-            shifts.extend(shifts::shifts(reader, own));
+            shifts.extend(shifts::shifts(reader, own, &divisors));
         }
     }
     let mut made = writer::written(reader, &read, constants);
@@ -170,7 +226,11 @@ fn changed(
     let letters = |formula: &str, with: &[(&'static str, String)]| {
         formula.chars().count() + with.iter().map(|(_, own)| own.chars().count()).sum::<usize>()
     };
-    if letters(&made.text, &with) >= letters(&own.formula, &own.with) {
+    let (new, old) = (letters(&made.text, &with), letters(&own.formula, &own.with));
+    // A factor belongs to the rate.
+    let is_simpler =
+        own.kind == CONSTANT_RATE && letters(&made.text, &[]) < letters(&own.formula, &[]);
+    if new > old || new == old && !is_simpler {
         return Ok(None);
     }
     let case = reader.case();

@@ -6,8 +6,8 @@ use liouville::proof::{MOST_POLYNOMIAL_WORK, Polynomial};
 
 use super::super::orbit::parsed::is_name;
 use super::fraction::Fraction;
+use super::products;
 use super::reader::{Reader, has_comma};
-use super::writer;
 
 /// Smallest number of terms of an expression that has a use.
 const FEWEST_TERMS: usize = 3;
@@ -63,7 +63,7 @@ impl NamedExpressions {
         let mut all: Vec<(Polynomial, String)> = Vec::new();
         for (text, name) in texts.into_iter().take(MOST) {
             // A product would need brackets as a divisor.
-            let is_factor = is_name(&name) || writer::is_sum(&name);
+            let is_factor = is_name(&name) || products::is_sum(&name);
             if text.len() > LONGEST || has_comma(&text) || !is_factor {
                 continue;
             }
@@ -101,6 +101,20 @@ impl NamedExpressions {
     /// Whether the file contains a hyperbolic function.
     pub fn has_hyperbolic(&self) -> bool {
         self.has_hyperbolic
+    }
+}
+
+/// Gives a Hamiltonian that is one root its name wherever the root occurs.
+pub fn show_energy(reader: &mut Reader<'_>) {
+    let case = reader.case();
+    let System::Hamiltonian(own) = &case.model.system else { return };
+    let read = reader.read(own.function.text()).filter(|_| case.formula(ENERGY).is_ok());
+    let Some(read) = read.filter(Fraction::is_polynomial) else { return };
+    if let Some((value, [(token, 1)])) = read.above.as_term()
+        && *value == Rational::from(1)
+        && !is_name(reader.tokens.text(*token))
+    {
+        reader.tokens.show(*token, ENERGY);
     }
 }
 

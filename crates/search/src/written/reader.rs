@@ -1,6 +1,8 @@
 //! Texts of formulas as fractions.
 
 use liouville::case::Case;
+use liouville::formula::{Type, canonical_name};
+use liouville::mechanics::Meaning;
 use liouville::number::rational::Rational;
 use liouville::proof::Polynomial;
 
@@ -8,7 +10,7 @@ use super::super::orbit::parsed::{
     base_and_power, closes, factors, inside, is_modulus, is_name, terms,
 };
 use super::fraction::Fraction;
-use super::named::NamedExpressions;
+use super::named::{self, NamedExpressions};
 use super::squares;
 use super::tokens::Tokens;
 use super::writer::{self, Constants};
@@ -16,20 +18,32 @@ use super::writer::{self, Constants};
 /// Largest depth of functions in functions.
 const DEEPEST: usize = 6;
 
+/// Functions f with f(−u) = −f(u).
+const ODD: [&str; 8] = ["atan", "asin", "sin", "tan", "sinh", "tanh", "asinh", "atanh"];
+
 /// Reads texts of a case.
 pub struct Reader<'c> {
     pub tokens: Tokens<'c>,
     pub named: NamedExpressions,
     depth: usize,
+    /// Whether abbreviations are read as what they stand for.
+    expands: bool,
 }
 
 impl<'c> Reader<'c> {
     /// Reads the expressions of the file first.
     pub fn new(case: &'c Case) -> Self {
         let named = NamedExpressions::default();
-        let mut reader = Self { tokens: Tokens::new(case), named, depth: 0 };
+        let mut reader = Self { tokens: Tokens::new(case), named, depth: 0, expands: false };
         reader.named = NamedExpressions::of(&mut reader);
+        named::show_energy(&mut reader);
         reader
+    }
+
+    /// The same, which reads abbreviations as what they stand for.
+    pub fn expanding(mut self) -> Self {
+        self.expands = true;
+        self
     }
 
     pub fn case(&self) -> &'c Case {
@@ -106,8 +120,23 @@ impl<'c> Reader<'c> {
         {
             return self.sum(inner)?.power(power);
         }
+        if let Some(text) = self.abbreviated(base) {
+            return self.sum(&text)?.power(power);
+        }
         let own = if is_entry(base) { self.token(base)? } else { self.function(base)? };
         own.power(power)
+    }
+
+    /// What an abbreviation stands for, where these are read so.
+    fn abbreviated(&self, name: &str) -> Option<String> {
+        let model = &self.case().model;
+        match model.vocabulary.find(name).filter(|_| self.expands)?.meaning {
+            Meaning::Abbreviation(place) => {
+                let own = model.abbreviations.get(place)?;
+                (own.value_type() == Type::Scalar).then(|| own.text().to_string())
+            }
+            _ => None,
+        }
     }
 
     /// A function, or another formula, with its argument written in lowest terms.
@@ -147,6 +176,14 @@ impl<'c> Reader<'c> {
             "|" => self.modulus(&read)?,
             _ => self.shorter(&read, argument)?,
         };
+        if ODD.contains(&name) {
+            let opposite = Fraction::number(&Rational::from(-1)).times(&read)?;
+            let turned = writer::written(self, &opposite, Constants::Kept)?.text;
+            if turned.chars().count() < written.chars().count() {
+                let own = self.token(&format!("{name}({turned})"))?;
+                return Fraction::number(&Rational::from(-1)).times(&own);
+            }
+        }
         let name = if name == "sqrt" { "√" } else { name };
         let called = match name {
             "√" if is_name(&written) => format!("√{written}"),
@@ -214,7 +251,9 @@ impl<'c> Reader<'c> {
     }
 
     fn token(&mut self, text: &str) -> Option<Fraction> {
-        self.tokens.of(text).map(Fraction::variable)
+        // A file may write phi for φ.
+        let canonical = canonical_name(text).filter(|_| self.expands);
+        self.tokens.of(canonical.as_deref().unwrap_or(text)).map(Fraction::variable)
     }
 }
 

@@ -10,6 +10,8 @@ struct Token {
     text: String,
     /// Whether it depends on parameters alone.
     is_constant: bool,
+    /// Text in formulas, where that is another one.
+    shown: Option<String>,
     /// Square of a root, where that is a polynomial.
     square: Option<Polynomial>,
 }
@@ -46,7 +48,12 @@ impl<'c> Tokens<'c> {
                 let is_parameter =
                     |symbol| vocabulary.entry(symbol).reach == Dependence::Parameters;
                 let is_constant = formula.symbols().all(is_parameter);
-                self.all.push(Token { text: text.to_string(), is_constant, square: None });
+                self.all.push(Token {
+                    text: text.to_string(),
+                    is_constant,
+                    shown: None,
+                    square: None,
+                });
                 self.all.len() - 1
             }
         };
@@ -70,8 +77,16 @@ impl<'c> Tokens<'c> {
             .filter_map(|place| Some((place, self.all[place as usize].square.as_ref()?)))
     }
 
+    /// Writes a token by another text.
+    pub fn show(&mut self, token: u32, text: &str) {
+        if let Some(own) = self.all.get_mut(token as usize) {
+            own.shown = Some(text.to_string());
+        }
+    }
+
     pub fn text(&self, token: u32) -> &str {
-        self.all.get(token as usize).map_or("", |own| own.text.as_str())
+        let own = self.all.get(token as usize);
+        own.map_or("", |own| own.shown.as_deref().unwrap_or(&own.text))
     }
 
     pub fn is_constant(&self, token: u32) -> bool {

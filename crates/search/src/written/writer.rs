@@ -1,15 +1,17 @@
 //! Fractions as texts: a product of factors, or a sum over a product.
 
-use liouville::formula::exponent_text;
 use liouville::number::rational::Rational;
 use liouville::proof::{MOST_POLYNOMIAL_WORK, Polynomial};
 use num_bigint::BigInt;
 use num_integer::Integer;
 
-use super::super::orbit::parsed::{is_bracketed, is_modulus, is_name, joined, terms as terms_of};
+use super::super::orbit::parsed::{joined, terms as terms_of};
+use super::circular;
 use super::fraction::Fraction;
 use super::hyperbolic;
+use super::products::{assembled, assembled_number, is_sum};
 use super::reader::Reader;
+use super::square_sums;
 use super::squares;
 
 /// Treatment of constant factors.
@@ -48,13 +50,55 @@ pub fn written(reader: &mut Reader<'_>, own: &Fraction, constants: Constants) ->
         let (text, constant_text) = (format!("{sign}{own}"), "1".to_string());
         return Some(Written { text, constant: Fraction::one(), constant_text });
     }
-    let turned = hyperbolic::turned(reader, own);
+    let turned: Vec<Fraction> =
+        hyperbolic::turned(reader, own).into_iter().chain(circular::turned(reader, own)).collect();
     let all = std::iter::once(own).chain(&turned);
     let mut made: Vec<Written> = Vec::new();
     for own in all {
         for is_sum in [false, true] {
             made.extend(product(reader, own, constants, is_sum));
         }
+        made.extend(with_square(reader, own, constants));
+        made.extend(sum_of_terms(reader, own, constants));
+    }
+    made.into_iter().min_by_key(|own| own.text.chars().count())
+}
+
+/// Writes a polynomial term by term, each with its number.
+fn sum_of_terms(reader: &Reader<'_>, own: &Fraction, constants: Constants) -> Option<Written> {
+    let scale = own.below.number()?.recip()?;
+    let is_wanted = constants == Constants::Kept && !own.above.is_zero();
+    let (constant, constant_text) = (Fraction::one(), "1".to_string());
+    is_wanted.then(|| Written {
+        text: with_sums_first(plain_terms(reader, &own.above.scaled(&scale))),
+        constant,
+        constant_text,
+    })
+}
+
+/// Writes a fraction as the square of a sum and what is left.
+fn with_square(reader: &mut Reader<'_>, own: &Fraction, constants: Constants) -> Option<Written> {
+    let (number, whole) = content(own)?;
+    let one = Rational::from(1);
+    if constants == Constants::Sign || constants == Constants::Kept && number != one {
+        return None;
+    }
+    let opposite = Fraction::number(&-&one).times(&whole)?;
+    let of_both = [(number.clone(), whole), (-&number, opposite)];
+    let signs = if constants == Constants::Left { 2 } else { 1 };
+    let mut made: Vec<Written> = Vec::new();
+    for (number, own) in &of_both[..signs] {
+        let Some((sum, rest)) = square_sums::largest(own) else { continue };
+        let [sum, rest] = [sum, rest].map(|own| written(reader, &own, Constants::Kept));
+        let (sum, rest) = (sum?.text, rest?.text);
+        let text = match rest.as_str() {
+            "0" => format!("({sum})²"),
+            rest => joined(std::iter::once((false, format!("({sum})²"))).chain(
+                terms_of(rest).into_iter().map(|(is_negative, own)| (is_negative, own.to_string())),
+            )),
+        };
+        let constant = Fraction::number(number);
+        made.push(Written { text, constant, constant_text: assembled_number(number) });
     }
     made.into_iter().min_by_key(|own| own.text.chars().count())
 }
@@ -141,6 +185,8 @@ fn product(
         let is_single = parts[1].is_empty() && parts[0].len() == 1 && number == Rational::from(1);
         if let Some(turned) = turned(&mut parts[0], is_single) {
             (is_negative, is_alone) = (false, turned);
+        } else if turned(&mut parts[1], false).is_some() {
+            is_negative = false;
         }
     }
     let text = match is_alone {
@@ -169,7 +215,7 @@ fn turned(factors: &mut [(String, u32)], is_single: bool) -> Option<bool> {
 }
 
 fn negative(text: &str, factors: usize) -> String {
-    match factors <= 1 && text.contains([' ']) {
+    match factors <= 1 && is_sum(text) {
         true => format!("−({text})"),
         false => format!("−{text}"),
     }
@@ -317,63 +363,4 @@ fn plain_terms(reader: &Reader<'_>, own: &Polynomial) -> Vec<(bool, String)> {
 
 fn plain(reader: &Reader<'_>, own: &Polynomial) -> String {
     joined(plain_terms(reader, own))
-}
-
-/// A positive number times a product over another.
-fn assembled(number: &Rational, [above, below]: &[Vec<(String, u32)>; 2]) -> String {
-    let (numerator, denominator) = number.parts();
-    let one = BigInt::from(1);
-    let is_alone = |count: usize, below: bool| count == 1 && !below;
-    let count = |own: &[(String, u32)], value: &BigInt| own.len() + usize::from(*value != one);
-    let (upper, lower) = (count(above, &numerator), count(below, &denominator));
-    let write = |own: &[(String, u32)], value: &BigInt, alone: bool| -> String {
-        let mut texts = Vec::new();
-        if *value != one {
-            texts.push(value.to_string());
-        }
-        for (text, power) in own {
-            texts.push(match power {
-                1 if alone || !is_sum(text) => text.clone(),
-                1 => format!("({text})"),
-                power => {
-                    let is_base =
-                        is_name(text) || is_bracketed(text) || is_modulus(text) || is_entry(text);
-                    let base = if is_base { text.clone() } else { format!("({text})") };
-                    format!("{base}{}", exponent_text(i64::from(*power)))
-                }
-            });
-        }
-        texts.join("*")
-    };
-    let top = match upper {
-        0 => "1".to_string(),
-        _ => write(above, &numerator, is_alone(upper, lower > 0)),
-    };
-    match lower {
-        0 => top,
-        1 => format!("{top}/{}", write(below, &denominator, false)),
-        _ => format!("{top}/({})", write(below, &denominator, false)),
-    }
-}
-
-/// Whether a text has to stand in brackets as a factor.
-pub fn is_sum(text: &str) -> bool {
-    let mut depth = 0i32;
-    let mut before = ' ';
-    for letter in text.chars() {
-        match letter {
-            '(' | '[' => depth += 1,
-            ')' | ']' => depth -= 1,
-            '+' | '−' | '-' if depth == 0 && before != '^' => return true,
-            _ => {}
-        }
-        before = letter;
-    }
-    false
-}
-
-/// Whether a text is an entry of a vector or matrix.
-fn is_entry(text: &str) -> bool {
-    let name = text.split_once('[').map(|(name, _)| name);
-    name.is_some_and(is_name) && text.ends_with([']', '\''])
 }

@@ -31,7 +31,9 @@ use liouville_search::{Effort, Excluded, Halt, SearchReport, search};
 
 fn searched(text: &str, effort: &Effort) -> SearchReport {
     let case = Case::parse(text, &[]).expect("a case");
-    let report = search(&case, effort, &mut |_| {}).expect("it can be searched");
+    let mut report = search(&case, effort, &mut |_| {}).expect("it can be searched");
+    // Those for volumes have a test of their own.
+    report.conditions.retain(|own| !own.of.starts_with("the density 1"));
     let open = report.found.iter().find(|found| found.verdict != Verdict::Proved);
     assert!(open.is_none(), "all is proved: {open:?}");
     report

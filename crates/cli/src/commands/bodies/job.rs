@@ -235,7 +235,12 @@ impl BodiesJob {
 
 /// Names of the invariants of a body.
 fn invariants(found: &Survey) -> Invariants {
-    let names = |own: &[TestedClaim]| own.iter().map(|one| one.claim.name.clone()).collect();
+    // A find of the search has no name of its own.
+    let name = |one: &TestedClaim| match one.claim.name == one.claim.kind.replace('-', " ") {
+        true => one.formula().to_string(),
+        false => one.claim.name.clone(),
+    };
+    let names = |own: &[TestedClaim]| own.iter().map(name).collect();
     Invariants {
         class: word(&found.hierarchy.class),
         measure: word(&found.hierarchy.measure),

@@ -157,7 +157,7 @@ fn parts_are_merged_to_the_picture_of_one_run() {
         .current_dir(&home)
         .assert()
         .code(2)
-        .stderr(contains("--time is no option of the report"));
+        .stderr(contains("the report has no option --time"));
 }
 
 #[test]
@@ -299,10 +299,10 @@ fn merge_takes_options_of_the_report_of_its_job() {
         let done = liouville(&arguments).current_dir(&home).assert().code(2);
         done.stderr(contains(message.to_string()).and(contains("help: ")));
     };
-    fails("merge states -- extra.toml", "extra.toml is no option of the report");
-    fails("merge states -- --json extra.toml", "extra.toml is no option of the report");
-    fails("merge states -- --dark", "--dark is no option of the report");
-    fails("merge bodies -- --colour class", "--colour is no option of the report");
+    fails("merge states -- extra.toml", "the report has no option extra.toml");
+    fails("merge states -- --json extra.toml", "the report has no option extra.toml");
+    fails("merge states -- --dark", "the report has no option --dark");
+    fails("merge bodies -- --colour class", "the report has no option --colour");
     fails("merge bodies -- --format", "--format has no value");
     // the parts were computed with --json
     let mut merged = liouville(&["merge", "bodies", "--", "--format", "csv"]);

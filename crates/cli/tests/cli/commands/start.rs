@@ -177,10 +177,20 @@ fn verdicts_come_as_csv_and_junit() {
     csv.stdout(contains("prime field,,\"it is not known that D_T"));
     let junit = liouville(&["check", path, "--format", "junit"]).assert().code(2);
     junit.stdout(
-        contains("<testsuites tests=\"4\" failures=\"1\" errors=\"1\"")
-            .and(contains("<failure message=\"proved, expected: fails\"/>"))
-            .and(contains("<error message=")),
+        contains("<testsuites tests=\"5\" failures=\"1\" errors=\"1\"")
+            .and(contains("<failure type=\"proved\" message=\"proved, expected: fails\">"))
+            .and(contains("wrong.toml:"))
+            .and(contains("<error type=\"mistake\" message=")),
     );
+    // A mistake is one test, with its line and its help.
+    let two = GOOD.replace("[body]", "[bodie]").replace("title", "titel");
+    let path = folder("mistakes", &[("two.toml", two.as_str())]);
+    let junit =
+        liouville(&["check", path.to_str().expect("UTF-8"), "--format", "junit"]).assert().code(2);
+    let text = String::from_utf8(junit.get_output().stdout.clone()).expect("UTF-8");
+    let (cases, errors) = (text.matches("<testcase").count(), text.matches("<error").count());
+    assert!(cases > 1 && cases == errors, "{text}");
+    assert!(text.contains(&format!("errors=\"{errors}\"")) && text.contains("help: "), "{text}");
 }
 
 #[test]

@@ -23,7 +23,7 @@ fn dimensions(report: &SearchReport) -> Vec<(&str, usize)> {
 
 /// Equations of the conditions, by what they are for.
 fn conditions(report: &SearchReport) -> Vec<(&str, Vec<&str>)> {
-    let own = report.conditions.iter();
+    let own = report.conditions.iter().filter(|own| !own.of.starts_with("the density 1"));
     own.map(|own| (own.of.as_str(), own.equations.iter().map(String::as_str).collect())).collect()
 }
 

@@ -107,3 +107,14 @@ fn a_bracket_that_the_field_does_not_keep_gives_nothing() {
         report.found
     );
 }
+
+#[test]
+fn a_function_of_one_integral_is_nothing_further() {
+    // Two vortices in a disk: H is a sum of logarithms, and e^(−H) is rational.
+    let energy = "ln(1 − x² − p²) + ln(1 − y² − q²) − ln((x − y)² + (p − q)²) + \
+                  ln(1 − 2*(x*y + p*q) + (x² + p²)*(y² + q²))";
+    let text = hamiltonian("", &PLANE, energy).replace("0.5..1", "0.1..0.5");
+    let report = searched(&text, &Effort::default());
+    assert!(further(&report).is_empty(), "{:?}", further(&report));
+    assert_eq!(report.formulas("integral").count(), 1, "{:?}", report.found);
+}

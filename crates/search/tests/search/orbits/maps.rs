@@ -142,7 +142,7 @@ fn planted_densities_are_found_in_other_coordinates() {
     let second = format!("{y}*((1 - h/2)*(1 - h/2 + h*{y}/2) + h/2*(1 + h/2)*{x})/{below}");
     let images = [format!("({first} + 2*{second})/7"), format!("(3*{first} - {second})/7")];
     let report = searched(&map("h = '0.1..0.5'", &[&images[0], &images[1]]), &Effort::default());
-    assert_eq!(densities(&report), ["1/(−3*x² − 5*x*y + 2*y²)"], "{:?}", report.remarks);
+    assert_eq!(densities(&report), ["1/((x + 2*y)*(y − 3*x))"], "{:?}", report.remarks);
     // X = x, Y = y (1 + x²)/k with a map of X, Y that keeps areas, and its inverse factor.
     let forward = "(y*(1 + x²)/k)";
     let images = [forward.to_string(), format!("k*(-x + {forward}²)/(1 + {forward}²)")];
