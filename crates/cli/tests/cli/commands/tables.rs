@@ -201,7 +201,8 @@ fn verdicts_are_tables_for_papers() {
         "(Author, J. \\#3)",
         "\\textbf{refuted} (not expected)",
         "[(2) [p. 3]]",
-        "spectrum",
+        "x = v = 0 , \\, \\lambda = ",
+        "v \\mapsto - v",
         "not judged: ",
         "\n[1] $",
     ] {
