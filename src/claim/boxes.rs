@@ -34,6 +34,16 @@ impl Boxes<'_> {
         formula.layout_of_product(&|symbol| self.named(symbol))
     }
 
+    /// Sets the multiple of a box, −x for the factor −1.
+    pub fn multiple(self, factor: &Formula, of: Layout) -> Layout {
+        match written(factor).as_str() {
+            "0" => Layout::Number("0".to_string()),
+            "1" => of,
+            "-1" => Layout::Row(vec![Layout::Sign("−"), of]),
+            _ => Layout::Row(vec![self.factor(factor), Layout::Space, of]),
+        }
+    }
+
     /// Sets d f/dt.
     pub fn rate(self, function: &Formula) -> Layout {
         Layout::rate(self.factor(function))
@@ -76,8 +86,23 @@ impl Boxes<'_> {
         });
         let time = time.map(|own| {
             let name = || Layout::name(TIME, Type::Scalar);
-            Layout::image(name(), Layout::Row(vec![self.factor(own), Layout::Space, name()]))
+            Layout::image(name(), self.multiple(own, name()))
         });
         Layout::listed(variables.chain(parameters).chain(time))
+    }
+}
+
+/// Text of a factor, with an ASCII sign.
+fn written(factor: &Formula) -> String {
+    factor.text().trim().replace('−', "-")
+}
+
+/// Writes the multiple of a name, −x for the factor −1.
+pub(super) fn multiple_text(factor: &Formula, of: &str) -> String {
+    match written(factor).as_str() {
+        "0" => "0".to_string(),
+        "1" => of.to_string(),
+        "-1" => format!("−{of}"),
+        _ => format!("{}*{of}", factor.as_factor().text().trim()),
     }
 }

@@ -2,7 +2,7 @@
 
 use num_dual::Dual;
 
-use super::boxes::Boxes;
+use super::boxes::{Boxes, multiple_text};
 use super::clock::never_rests;
 use super::components::Components;
 use super::elsewhere::{inside, system_at_point};
@@ -66,13 +66,19 @@ impl Statement for FixedPoint {
         }
         let value = |(real, imaginary): &ComplexFormula| match imaginary {
             None => boxes.formula(real),
-            Some(imaginary) => Layout::Row(vec![
-                boxes.formula(real),
-                Layout::Sign("±"),
-                boxes.product(imaginary),
-                Layout::Space,
-                Layout::name("i", Type::Scalar),
-            ]),
+            Some(imaginary) => {
+                let i = Layout::name("i", Type::Scalar);
+                let mut row = match real.text().trim() {
+                    "0" => Vec::new(),
+                    _ => vec![boxes.formula(real)],
+                };
+                row.push(Layout::Sign("±"));
+                match imaginary.text().trim() {
+                    "1" => row.push(i),
+                    _ => row.extend([boxes.product(imaginary), Layout::Space, i]),
+                }
+                Layout::Row(row)
+            }
         };
         let spectrum = self.spectrum.as_ref().map(|own| {
             Layout::equation(Layout::name("λ", Type::Scalar), Layout::listed(own.iter().map(value)))
@@ -88,7 +94,11 @@ impl Statement for FixedPoint {
         let value = |(real, imaginary): &ComplexFormula| match imaginary {
             None => real.text().trim().to_string(),
             Some(imaginary) => {
-                format!("{} ± {}*i", real.text().trim(), imaginary.as_factor().text().trim())
+                let real = match real.text().trim() {
+                    "0" => String::new(),
+                    real => format!("{real} "),
+                };
+                format!("{real}± {}", multiple_text(imaginary, "i"))
             }
         };
         let spectrum = self.spectrum.as_ref().map(|own| {

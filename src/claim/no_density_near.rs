@@ -8,14 +8,12 @@
 //! μ(Φ(B)), and Φ(B) has at most q times the volume of B, where q is near |det DΦ(x₀)|. So |det DΦ(x₀)| < 1
 //! excludes every ρ that is positive at x₀; |det DΦ(x₀)| > 1 does not, where Φ is not one-to-one.
 
-use super::boxes::Boxes;
 use super::clock::never_rests;
 use super::components::Components;
 use super::elsewhere::{inside, system_at_point};
 use super::point::read_point;
 use super::statement::Objection;
 use super::{Condition, Need, Reader, ResidualContext, Statement, ValueShape, difference};
-use crate::formula::Layout;
 use crate::graph::Expr;
 use crate::mechanics::Model;
 use crate::mechanics::calculus::DualPoint;
@@ -59,10 +57,6 @@ impl Statement for NoDensityNear {
         })
     }
 
-    fn layout(&self, boxes: Boxes<'_>) -> Option<Layout> {
-        Some(boxes.point(&self.0))
-    }
-
     fn objection(&self, model: &Model) -> Option<Objection> {
         never_rests(model, Self::NAME)
     }
@@ -82,13 +76,8 @@ impl Statement for NoDensityNear {
         self.0.written(&jet.phase)
     }
 
-    /// The field has to be continuously differentiable near the point, in all directions.
     fn presence(&self, jet: &DualPoint<'_, Expr>) -> Vec<Expr> {
-        let at = self.jet(jet);
-        let mut values = system_at_point(&at.phase);
-        let slopes = at.derivative().concat().into_iter();
-        values.extend(slopes.filter(|slope| !slope.is_always_defined()));
-        inside(values)
+        inside(system_at_point(&jet.phase.with(&[], &self.0.at(&jet.phase))))
     }
 
     fn context(&self, jet: &DualPoint<'_, Expr>, kept: &[bool]) -> ResidualContext {

@@ -1,6 +1,6 @@
 //! Symmetry fields, tangent to the level: [u,v] = (u·∇)v - (v·∇)u vanishes, or is a multiple of v.
 
-use super::boxes::Boxes;
+use super::boxes::{Boxes, multiple_text};
 use super::components::Components;
 use super::{Condition, Reader, Statement, ValueShape};
 use crate::formula::{Formula, Layout, Type};
@@ -39,18 +39,14 @@ impl Statement for SymmetryField {
         ]);
         let bracket = Layout::Fenced("[", Box::new(bracket), "]");
         let weight = self.weight.iter().map(|own| {
-            let factor = boxes.factor(own);
-            let multiple = match &factor {
-                Layout::Number(digits) if digits == "0" => factor,
-                _ => Layout::Row(vec![factor, Layout::Space, Layout::name("v", Type::VECTOR)]),
-            };
+            let multiple = boxes.multiple(own, Layout::name("v", Type::VECTOR));
             Layout::equation(bracket.clone(), multiple)
         });
         Some(Layout::listed([boxes.field(&self.components)].into_iter().chain(weight)))
     }
 
     fn particulars(&self) -> Option<String> {
-        Some(format!("[u,v] = {}*v", self.weight.as_ref()?.as_factor().text().trim()))
+        Some(format!("[u,v] = {}", multiple_text(self.weight.as_ref()?, "v")))
     }
 
     fn formulas(&self) -> Vec<&Formula> {

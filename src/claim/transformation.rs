@@ -1,6 +1,6 @@
 //! Maps of phase space: symmetries, reversors, scalings, and maps to other systems.
 
-use super::boxes::Boxes;
+use super::boxes::{Boxes, multiple_text};
 use super::elsewhere::{inverse_at, one_antiderivative, system_at, written_at};
 use super::images::Transformation;
 use super::statement::open_constant;
@@ -69,7 +69,7 @@ impl Statement for Symmetry {
     }
 
     fn particulars(&self) -> Option<String> {
-        Some(format!("t → {}*t", self.time.as_ref()?.as_factor().text().trim()))
+        Some(format!("t → {}", multiple_text(self.time.as_ref()?, "t")))
     }
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {

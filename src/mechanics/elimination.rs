@@ -185,6 +185,23 @@ pub fn solve_by_minors<T: Scalar>(a: &[Vec<T>], sides: &[Vec<T>]) -> Vec<Vec<T>>
     sides.iter().map(solved).collect()
 }
 
+/// Solves A x = b by Cramer's rule, x_i = det A_i / det A, with a value exactly where det A ≠ 0. For few rows.
+#[inline(never)]
+pub fn solve_by_cramer<T: Scalar>(a: &[Vec<T>], b: &[T]) -> Vec<T> {
+    let whole = determinant(a);
+    whole.note_divisor();
+    let inverse = whole.recip();
+    let with_side = |column: usize| -> Vec<Vec<T>> {
+        let row = |(row, side): (&Vec<T>, &T)| {
+            let mut row = row.clone();
+            row[column] = *side;
+            row
+        };
+        a.iter().zip(b).map(row).collect()
+    };
+    (0..a.len()).map(|column| determinant(&with_side(column)) * inverse).collect()
+}
+
 /// The same by Cayley and Hamilton's theorem: Aⁿ + c₁Aⁿ⁻¹ + … + c_n E = 0.
 fn solved_by_powers<T: Scalar>(a: &[Vec<T>], b: &[T]) -> Vec<T> {
     // The transpose has the same polynomial, so that rows may serve as columns.
@@ -256,6 +273,17 @@ mod tests {
             let solution = solve_by_minors(&matrix, std::slice::from_ref(&side)).remove(0);
             for (row, expected) in matrix.iter().zip(&side) {
                 assert!((dot(row, &solution) - expected).abs() < 1e-12, "{n} rows");
+            }
+        }
+        for n in 1..8usize {
+            let entry =
+                |i: usize, j: usize| f64::from(((3 * i + 5 * j) % 7) as u8) + f64::from(i == j);
+            let matrix: Vec<Vec<f64>> =
+                (0..n).map(|i| (0..n).map(|j| entry(i, j)).collect()).collect();
+            let side: Vec<f64> = (1..=n).map(|k| k as f64).collect();
+            let solution = solve_by_cramer(&matrix, &side);
+            for (row, expected) in matrix.iter().zip(&side) {
+                assert!((dot(row, &solution) - expected).abs() < 1e-9, "{n} rows");
             }
         }
         let skewed: Vec<Vec<f64>> = (0..8)

@@ -21,7 +21,6 @@ use self::masses::eliminated;
 
 use super::configuration::Configuration;
 use super::dynamics::Dynamics;
-use super::elimination::dot;
 use super::model::Variable;
 use super::phase::Phase;
 use super::quantity::Quantity;
@@ -103,7 +102,15 @@ impl Dynamics for Lagrangian {
 
     /// Returns the rates of all components of the state.
     fn field<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
-        self.field_of(phase, self.motion(phase))
+        let motion = self.motion(phase);
+        let mut field = motion.drift;
+        for (component, rate) in motion.velocities.iter().zip(motion.acceleration) {
+            field[*component] = rate;
+        }
+        for (component, rate) in self.multipliers(&phase.model().state).zip(motion.reactions) {
+            field[component] = rate;
+        }
+        field
     }
 
     fn energy<T: Scalar>(&self, phase: &Phase<'_, T>) -> Option<T> {
@@ -119,24 +126,6 @@ impl Dynamics for Lagrangian {
 }
 
 impl Lagrangian {
-    /// Returns the rates of all components of the state, solved for without pivots: they have a value exactly where
-    /// the masses, bordered by the slopes of the constraints, are regular. `None` for systems that are too large.
-    pub fn field_by_minors<T: Scalar>(&self, phase: &Phase<'_, T>) -> Option<Vec<T>> {
-        let equations = self.equations(phase);
-        equations.is_small().then(|| self.field_of(phase, equations.by_minors()))
-    }
-
-    fn field_of<T: Scalar>(&self, phase: &Phase<'_, T>, motion: LagrangianTerms<T>) -> Vec<T> {
-        let mut field = motion.drift;
-        for (component, rate) in motion.velocities.iter().zip(motion.acceleration) {
-            field[*component] = rate;
-        }
-        for (component, rate) in self.multipliers(&phase.model().state).zip(motion.reactions) {
-            field[component] = rate;
-        }
-        field
-    }
-
     /// Returns the reaction μ_k of a constraint.
     fn reaction<T: Scalar>(&self, phase: &Phase<'_, T>, index: usize) -> T {
         self.motion(phase).reactions.get(index).copied().unwrap_or_else(T::undefined)
@@ -223,25 +212,9 @@ impl Lagrangian {
 
     fn motion<T: Scalar>(&self, phase: &Phase<'_, T>) -> LagrangianTerms<T> {
         let equations = self.equations(phase);
-        if !self.may_be_eliminated(&equations.terms.mass) {
-            return equations.by_minors();
+        match self.may_be_eliminated(&equations.terms.mass) {
+            true => equations.solved_by(&eliminated),
+            false => equations.by_minors(),
         }
-        let LagrangianEquations { velocities, drift, terms, carried } = equations;
-        let EquationTerms { mass, drive, slopes } = terms;
-        let sides = [drive].into_iter().chain(slopes.iter().cloned()).collect();
-        let mut responses = eliminated(&mass, sides);
-        let free = responses.remove(0);
-        let gram: Vec<Vec<T>> =
-            slopes.iter().map(|a| responses.iter().map(|b| dot(a, b)).collect()).collect();
-        let defects = carried.iter().zip(&slopes).map(|(own, a)| -(*own + dot(a, &free))).collect();
-        let reactions = eliminated(&gram, vec![defects]).remove(0);
-        let acceleration = free
-            .iter()
-            .enumerate()
-            .map(|(i, free)| {
-                reactions.iter().zip(&responses).map(|(m, r)| *m * r[i]).sum::<T>() + *free
-            })
-            .collect();
-        LagrangianTerms { velocities, acceleration, reactions, drift }
     }
 }

@@ -47,14 +47,7 @@ impl Phase<'_, Expr> {
         if self.model().system.has_given_rates() {
             return Vec::new();
         }
-        let rates = literally(|| {
-            let here = self.with(&[], &self.state());
-            let exact = match &self.model().system {
-                System::Lagrangian(own) => own.field_by_minors(&here),
-                _ => None,
-            };
-            exact.unwrap_or_else(|| here.field().to_vec())
-        });
+        let rates = literally(|| self.with(&[], &self.state()).field().to_vec());
         rates.into_iter().filter(|rate| !rate.is_always_defined()).collect()
     }
 
@@ -67,32 +60,20 @@ impl Phase<'_, Expr> {
         if has_moduli(written) {
             return self.motion_as_written();
         }
-        let inverse = |divisor: Expr| literally(|| divisor.apply(UnaryFunction::Recip));
-        let inverses: Vec<Expr> = self.divisors().into_iter().map(inverse).collect();
-        left_out(&[written, self.field()].concat(), &inverses)
-    }
-
-    /// Records what accelerations are divided by: of a body the function of inertia, as the rate of γ shows D_T; of a
-    /// Lagrangian the determinant without which they do not exist, however they are solved for.
-    fn divisors(&self) -> Vec<Expr> {
+        let kept = [written, self.field()].concat();
+        let hidden = |divisors: Vec<Expr>| {
+            let inverse = |divisor: Expr| literally(|| divisor.apply(UnaryFunction::Recip));
+            left_out(&kept, &divisors.into_iter().map(inverse).collect::<Vec<Expr>>())
+        };
         let system = &self.model().system;
-        match (system, system.inertia_divisor(&self.configuration)) {
+        hidden(match (system, system.inertia_divisor(&self.configuration)) {
+            // The rate of γ shows what else a body divides by.
             (_, Some(divisor)) => vec![divisor],
-            (System::Lagrangian(own), None) => {
-                let mut determinant = None;
-                let mut all = divisors_of(|| {
-                    let here = self.with(&[], &self.state());
-                    let equations = own.equations(&here);
-                    determinant = equations.is_small().then(|| equations.determinant());
-                    if determinant.is_none() {
-                        here.field();
-                    }
-                });
-                all.extend(determinant);
-                all
-            }
+            (System::Lagrangian(_), None) => divisors_of(|| {
+                self.with(&[], &self.state()).field();
+            }),
             _ => Vec::new(),
-        }
+        })
     }
 
     /// Evaluates as written what a formula has no value without, though its value need not show it: the

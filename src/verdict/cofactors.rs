@@ -67,8 +67,16 @@ impl Judging<'_> {
             |pole: &Expr| self.graph.inputs_of(*pole).into_iter().any(|input| input >= parameters);
         let mut poles = poles_of(self.graph, &[cofactor.factor]);
         let of_field = poles_of(self.graph, &self.common.required_at(sampler.kept()));
-        let is_of_field = |pole: &Expr| *pole != function && of_field.contains(pole);
         let misses_some = !sampler.misses_nothing(self.case);
+        // In space a pole in other variables than F is not 0 wherever F is.
+        let of_function = self.graph.inputs_of(function);
+        let is_apart = |pole: &Expr| {
+            let own = self.graph.inputs_of(*pole).into_iter().filter(|input| *input >= parameters);
+            own.into_iter().all(|input| !of_function.contains(&input))
+        };
+        let is_of_field = |pole: &Expr| {
+            *pole != function && of_field.contains(pole) && (misses_some || is_apart(pole))
+        };
         poles.retain(|pole| !(misses_some && !moves(pole)) && !is_of_field(pole));
         if poles.is_empty() {
             return Ok(true);

@@ -110,7 +110,8 @@ impl Judging<'_> {
         found: &[Where],
         value: Expr,
     ) -> Option<String> {
-        let run = self.run(&[value]);
+        let required = self.common.required_at(sampler.kept());
+        let run = self.run(&[&[value][..], &required].concat());
         let at = |chosen: &Sampler, numbers: &[Rational]| {
             LADDER_BITS.into_iter().find_map(|bits| {
                 let domain = Mixed::new(bits);
@@ -120,6 +121,9 @@ impl Judging<'_> {
                     return None;
                 }
                 let values = run.at(&domain, &state);
+                if !values.existing(std::slice::from_ref(&(1..required.len() + 1)))[0] {
+                    return None;
+                }
                 let own = values.output(0);
                 let (mid, _) = Mixed::enclosure(own, 0).filter(|_| Mixed::excludes_zero(own, 0))?;
                 Some(format!("{mid:.3e}"))

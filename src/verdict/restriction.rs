@@ -16,8 +16,10 @@ pub enum Flaw {
     OnAPart,
     /// A symmetry cannot be inverted, or new variables obey a relation, on a part of the states at least.
     NotInvertible,
-    /// The claim is true, and says nothing: its functions are constant, or its set has no state.
+    /// The claim is true, and says nothing: its functions are constant, or follow from the field.
     SaysNothing,
+    /// The set of the claim contains no state of the declared ranges.
+    NoState,
 }
 
 /// Returns the restriction of a claim that does not meet a need.
@@ -26,7 +28,8 @@ pub(super) fn flaw(need: &Need) -> Option<Flaw> {
         Need::Continuous { .. } => Flaw::Jumps,
         Need::Finite { .. } => Flaw::Infinite,
         Need::Rank { .. } => Flaw::NotInvertible,
-        Need::Nonzero { .. } | Need::Zeros { .. } => Flaw::SaysNothing,
+        Need::Nonzero { .. } => Flaw::SaysNothing,
+        Need::Zeros { .. } => Flaw::NoState,
         Need::NotZero { .. }
         | Need::Positive { .. }
         | Need::OneToOne { .. }

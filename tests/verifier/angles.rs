@@ -32,6 +32,16 @@ fn special_angles_have_their_values() {
         ],
     );
     assert_eq!(found, vec![Verdict::Proved; 8]);
+    // Parts of π that are no twelfths are related by their sums.
+    let related = verdicts(
+        FIELD,
+        &[
+            "identity = '4*cos(pi/9)^3 - 3*cos(pi/9) = cos(pi/3)'",
+            "identity = '2*cos(x + pi/24)^2 - 1 = cos(2*x + pi/12)'",
+            "identity = '2*sin(pi*x/6 + pi/12) = 2*sin(pi*(2*x + 1)/12)'",
+        ],
+    );
+    assert_eq!(related, vec![Verdict::Proved; 3]);
     let wrong = verdicts(
         FIELD,
         &[

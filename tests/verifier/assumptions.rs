@@ -63,7 +63,7 @@ fn claims_that_say_nothing_are_marked() {
         assert_eq!(found.verdict, Verdict::Proved, "{claim}");
         found.evidence.flaws
     };
-    assert_eq!(flaws("invariant-relation = 'x² + y² + 1'\ncofactor = '0'"), [Flaw::SaysNothing]);
+    assert_eq!(flaws("invariant-relation = 'x² + y² + 1'\ncofactor = '0'"), [Flaw::NoState]);
     assert_eq!(flaws("invariant-relation = 'x² + y² - 1'\ncofactor = '0'"), []);
     assert_eq!(flaws("lyapunov = '3'"), [Flaw::SaysNothing]);
     assert_eq!(flaws("symmetry = { x = '0', y = '0' }"), [Flaw::NotInvertible]);

@@ -16,6 +16,8 @@ use super::{Effort, Found, SearchError, SearchReport};
 const MOST_INTEGRALS: usize = 6;
 /// Longest factor, in letters.
 const LONGEST: usize = 200;
+/// Largest multiple of its length by which a density may grow: a long one is not at hand.
+const MOST_GROWTH: usize = 2;
 
 /// Replaces densities of the report by densities of measures, where one of these is at hand.
 pub fn prefer(case: &Case, effort: &Effort, report: &mut SearchReport) -> Result<(), SearchError> {
@@ -56,7 +58,7 @@ fn has_no_minus(own: &Found) -> bool {
     own.evidence.sign != Some(DensitySign::Negative)
 }
 
-/// The shortest density of a measure that is the product with a function of one integral.
+/// The shortest density of a measure that is the product with a function of one integral, and does not jump.
 fn with_integrals(
     case: &Case,
     effort: &Effort,
@@ -77,7 +79,9 @@ fn with_integrals(
             let has_one_sign = own.evidence.sign != Some(DensitySign::Changes);
             let is_better = is_of_measure(&own.evidence)
                 || has_one_sign && written::has_small_poles(case, &product);
-            if is_better && found.as_ref().is_none_or(is_shorter) {
+            let is_plain = !own.evidence.has(Flaw::Jumps)
+                && own.formula.chars().count() <= MOST_GROWTH * density.text().chars().count();
+            if is_plain && is_better && found.as_ref().is_none_or(is_shorter) {
                 found = Some(own);
             }
         }

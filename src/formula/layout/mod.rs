@@ -81,6 +81,9 @@ impl Layout {
     ) -> Self {
         let mut row = Vec::new();
         for (name, formula) in parts {
+            if formula.text().trim() == "0" {
+                continue;
+            }
             let (is_negative, factor) = formula.signed_layout(names);
             match (is_negative, row.is_empty()) {
                 (true, _) => row.push(Layout::Sign("−")),
@@ -96,7 +99,10 @@ impl Layout {
             let variable = Box::new(Layout::name(name, kind));
             row.push(Layout::Lowered(Box::new(Layout::Sign("∂")), variable));
         }
-        Layout::Row(row)
+        match row.is_empty() {
+            true => Layout::Number("0".to_string()),
+            false => Layout::Row(row),
+        }
     }
 
     /// The boxes of a list, with commas between them.

@@ -5,7 +5,7 @@ use num_dual::Dual;
 use super::{Algebra, Lagrangian, LagrangianTerms, VariableRole};
 use crate::formula::Formula;
 use crate::mechanics::calculus::MANY;
-use crate::mechanics::elimination::{determinant, dot, solve_by_minors, solve_positive};
+use crate::mechanics::elimination::{dot, solve_by_cramer, solve_by_minors, solve_positive};
 use crate::mechanics::{Configuration, Phase, Variable};
 use crate::scalar::Scalar;
 
@@ -31,12 +31,12 @@ pub struct EquationTerms<T> {
     pub slopes: Vec<Vec<T>>,
 }
 
-/// Largest number of velocities and constraints of which a determinant is written out.
-const MOST_ROWS: usize = 10;
+/// Largest number of velocities and constraints of which determinants are written out.
+const MOST_ROWS: usize = 8;
 
 impl<T: Scalar> LagrangianEquations<T> {
     /// Whether there are few velocities and constraints.
-    pub fn is_small(&self) -> bool {
+    fn is_small(&self) -> bool {
         self.terms.mass.len() + self.terms.slopes.len() <= MOST_ROWS
     }
 
@@ -52,17 +52,14 @@ impl<T: Scalar> LagrangianEquations<T> {
         upper.chain(lower).collect()
     }
 
-    /// Computes the determinant of the masses with that border: where it is not 0, and only there, the equations have
-    /// one solution.
-    pub fn determinant(&self) -> T {
-        determinant(&self.bordered())
-    }
-
     /// Solves the equations by minors, without pivots.
     pub(super) fn by_minors(self) -> LagrangianTerms<T> {
+        if !self.is_small() {
+            return self.solved_by(&|matrix, sides| solve_by_minors(matrix, &sides));
+        }
         let opposite = self.carried.iter().map(|own| -*own);
-        let side = self.terms.drive.iter().copied().chain(opposite).collect();
-        let mut acceleration = solve_by_minors(&self.bordered(), &[side]).remove(0);
+        let side: Vec<T> = self.terms.drive.iter().copied().chain(opposite).collect();
+        let mut acceleration = solve_by_cramer(&self.bordered(), &side);
         let reactions = acceleration.split_off(self.velocities.len());
         LagrangianTerms {
             velocities: self.velocities,
@@ -70,6 +67,32 @@ impl<T: Scalar> LagrangianEquations<T> {
             reactions: reactions.into_iter().map(|own| -own).collect(),
             drift: self.drift,
         }
+    }
+}
+
+impl<T: Scalar> LagrangianEquations<T> {
+    /// Solves for the free accelerations first, and then for the reactions, each by a solver of A x = b for several b.
+    pub(super) fn solved_by(
+        self,
+        solve: &dyn Fn(&[Vec<T>], Vec<Vec<T>>) -> Vec<Vec<T>>,
+    ) -> LagrangianTerms<T> {
+        let LagrangianEquations { velocities, drift, terms, carried } = self;
+        let EquationTerms { mass, drive, slopes } = terms;
+        let sides = [drive].into_iter().chain(slopes.iter().cloned()).collect();
+        let mut responses = solve(&mass, sides);
+        let free = responses.remove(0);
+        let gram: Vec<Vec<T>> =
+            slopes.iter().map(|a| responses.iter().map(|b| dot(a, b)).collect()).collect();
+        let defects = carried.iter().zip(&slopes).map(|(own, a)| -(*own + dot(a, &free))).collect();
+        let reactions = solve(&gram, vec![defects]).remove(0);
+        let acceleration = free
+            .iter()
+            .enumerate()
+            .map(|(i, free)| {
+                reactions.iter().zip(&responses).map(|(m, r)| *m * r[i]).sum::<T>() + *free
+            })
+            .collect();
+        LagrangianTerms { velocities, acceleration, reactions, drift }
     }
 }
 

@@ -10,6 +10,7 @@ use crate::mechanics::dynamics::Dynamics;
 use crate::mechanics::elimination::{is_indefinite, solve_by_minors, solve_positive};
 use crate::mechanics::{Chart, Configuration, Draw, DrawSource, Model, Phase, combinations};
 use crate::number::UnaryFunction;
+use crate::number::ball::{Ball, Balls};
 use crate::number::float::Float;
 use crate::number::rational::Rational;
 use crate::proof::{Extent, InputDistribution, Prover};
@@ -31,7 +32,7 @@ struct DrawnMasses {
 
 impl Lagrangian {
     /// Whether the equations of motion are to be solved by minors: what elimination divides by is not known to be 0 on
-    /// no open set of states, or the matrix has eigenvalues of both signs at some of the first drawn states, with one choice of
+    /// no open set of states, on the level and in all of space, or the matrix has eigenvalues of both signs at some of the first drawn states, with one choice of
     /// listed values or another. `false` where there are no velocities.
     pub fn needs_minors(&self, model: &Model, chart: &Chart, free: &[Draw]) -> bool {
         let velocities = self.velocities(&model.state);
@@ -39,23 +40,32 @@ impl Lagrangian {
         {
             return false;
         }
-        let draws =
-            [model.parameter_draws(), chart.draws(free, &vec![true; model.level.len()])].concat();
-        let none = vec![None; draws.len()];
-        let Some(choices) = combinations(&draws) else { return true };
-        // Nothing has a value for a mass without one.
-        let drawn = |choice: &Vec<Option<Rational>>| {
-            self.drawn_masses((model, chart), &velocities, choice).ok()
-        };
-        let is_regular = |choice: &Vec<Option<Rational>>| {
-            drawn(choice).is_none_or(|own| own.has_pivots(&draws).unwrap_or(false))
-        };
-        if !choices.iter().all(is_regular) {
-            return true;
+        let level = vec![true; model.level.len()];
+        let mut places = vec![level.clone()];
+        if !level.is_empty() {
+            places.push(vec![false; level.len()]);
         }
-        let Some(own) = drawn(&none) else { return false };
-        velocities.len() <= MOST_VELOCITIES
-            && own.is_indefinite_somewhere(velocities.len(), &draws, &choices)
+        for kept in &places {
+            let place = (model, chart, &kept[..]);
+            let draws = [model.parameter_draws(), chart.draws(free, kept)].concat();
+            let Some(choices) = combinations(&draws) else { return true };
+            // Nothing has a value for a mass without one.
+            let drawn =
+                |choice: &Vec<Option<Rational>>| self.drawn_masses(place, &velocities, choice).ok();
+            let is_regular = |choice: &Vec<Option<Rational>>| {
+                drawn(choice).is_none_or(|own| own.has_pivots(&draws).unwrap_or(false))
+            };
+            if !choices.iter().all(is_regular) {
+                return true;
+            }
+            if *kept == level && velocities.len() <= MOST_VELOCITIES {
+                let Some(own) = drawn(&vec![None; draws.len()]) else { return false };
+                if own.is_indefinite_somewhere(velocities.len(), &draws, &choices) {
+                    return true;
+                }
+            }
+        }
+        false
     }
 
     /// Whether a modulus occurs in 𝓛.
@@ -71,17 +81,16 @@ impl Lagrangian {
 
     fn drawn_masses(
         &self,
-        (model, chart): (&Model, &Chart),
+        (model, chart, kept): (&Model, &Chart, &[bool]),
         velocities: &[usize],
         choice: &[Option<Rational>],
     ) -> Result<DrawnMasses, Fault> {
-        let kept = vec![true; model.level.len()];
         let (graph, (masses, pivots)) = record(choice.len(), |inputs| {
             let fixed = inputs.iter().zip(choice);
             let inputs: Vec<Expr> =
                 fixed.map(|(own, value)| value.as_ref().map_or(*own, Expr::rational)).collect();
             let (parameters, state) = model.make_parameters(&inputs);
-            let state = chart.point(model, &kept, &parameters, state);
+            let state = chart.point(model, kept, &parameters, state);
             let phase = Phase::new(model, &parameters, &state);
             let pivots = divisors_of(|| {
                 self.field(&phase);
@@ -122,7 +131,7 @@ pub(super) fn eliminated<T: Scalar>(matrix: &[Vec<T>], sides: Vec<Vec<T>>) -> Ve
 }
 
 impl DrawnMasses {
-    /// Whether each divisor is seen to be 0 on no open set of states: in f64 at one of them, where it is one analytic
+    /// Whether each divisor is seen to be 0 on no open set of states: in a ball at one of them, where it is one analytic
     /// function, or by a proof on each cell of signs of its moduli and roots.
     fn has_pivots(&self, draws: &[Draw]) -> Result<bool, Fault> {
         let has_kinks = self.graph.has_step(&self.pivots, |step| match step {
@@ -132,9 +141,15 @@ impl DrawnMasses {
         });
         if !has_kinks {
             let tape = Tape::new(&self.graph, &self.pivots);
-            let mut evaluator = Evaluator::new(&tape, Float::<STATES>);
-            evaluator.run(&drawn_numbers(draws, self.graph.inputs()));
-            let is_seen = |value: &[f64; STATES]| value.iter().any(|x| *x != 0.0 || x.is_nan());
+            let mut evaluator = Evaluator::new(&tape, Ball::<STATES>);
+            let numbers = drawn_numbers(draws, self.graph.inputs());
+            let exact = |x: &[f64; STATES]| Balls::new(*x, [0.0; STATES]);
+            evaluator.run(&numbers.iter().map(exact).collect::<Vec<_>>());
+            // Where nothing has a value nothing is known.
+            let is_seen = |value: &Balls<STATES>| {
+                let known = || (0..STATES).filter(|lane| value.is_defined(*lane));
+                known().next().is_none() || known().any(|lane| value.excludes_zero(lane))
+            };
             return Ok(evaluator.outputs().all(is_seen));
         }
         let source = |draw: &Draw| match draw {

@@ -31,18 +31,13 @@ pub struct Angle {
 
 /// Lists the sums with arctangents whose sines and cosines some values need.
 pub fn angles(graph: &Graph, values: &[Expr]) -> Vec<Rewrite> {
-    let rewrite = |argument: usize| {
-        Angle::of(graph, argument).map(|angle| Rewrite::Angle { argument, angle })
-    };
-    arguments(graph, values).into_iter().filter_map(rewrite).collect()
+    let rewrite = |(argument, angle): (usize, Angle)| Rewrite::Angle { argument, angle };
+    taken_apart(graph, values).map(rewrite).collect()
 }
 
 /// Records values anew, with sines and cosines of sums with arctangents written out.
 pub fn without_arctangents(graph: &Graph, values: &[Expr]) -> Result<(Graph, Vec<Expr>), Fault> {
-    let sums: FxHashMap<usize, Angle> = arguments(graph, values)
-        .into_iter()
-        .filter_map(|argument| Some((argument, Angle::of(graph, argument)?)))
-        .collect();
+    let sums: FxHashMap<usize, Angle> = taken_apart(graph, values).collect();
     let reached = graph.reached(values.iter().copied());
     record(graph.inputs(), |inputs| {
         let replayed = graph.replay(&reached, inputs, |_, step, replayed| match step {
@@ -53,6 +48,30 @@ pub fn without_arctangents(graph: &Graph, values: &[Expr]) -> Result<(Graph, Vec
         });
         let value = |value: &Expr| replayed[graph.place(*value)].unwrap_or_else(Expr::undefined);
         values.iter().map(value).collect()
+    })
+}
+
+/// Lists the arguments of sines and cosines that are sums to be written out. Twelfths of π are not, where π occurs in
+/// other parts, too: cos 2π/9 = 2 cos² π/9 − 1 is a relation between the sums as they are.
+fn taken_apart(graph: &Graph, values: &[Expr]) -> impl Iterator<Item = (usize, Angle)> {
+    let all: Vec<(usize, Option<Angle>)> = arguments(graph, values)
+        .into_iter()
+        .map(|argument| (argument, Angle::of(graph, argument)))
+        .collect();
+    let is_eighth = |step: Step<'_>| match step {
+        Step::Unary(UnaryFunction::Atan, a) => {
+            matches!(graph.step(a), Step::Constant(value) if value.is_one())
+        }
+        _ => false,
+    };
+    let has_others = all.iter().filter_map(|(_, angle)| angle.as_ref()).any(|angle| {
+        let rest: Vec<Expr> = angle.rest.iter().map(|(place, _)| graph.at(*place)).collect();
+        graph.has_step(&rest, is_eighth)
+    });
+    all.into_iter().filter_map(move |(argument, angle)| {
+        let angle = angle
+            .filter(|own| !own.arctangents.is_empty() || own.has_broken_part() && !has_others)?;
+        Some((argument, angle))
     })
 }
 
@@ -71,7 +90,7 @@ pub fn arguments(graph: &Graph, values: &[Expr]) -> Vec<usize> {
 }
 
 impl Angle {
-    /// Takes a sum apart; `None` if it contains no arctangents and no broken parts of a quarter turn.
+    /// Takes a sum apart; `None` if it has too many terms.
     fn of(graph: &Graph, place: usize) -> Option<Self> {
         let mut found = Self { arctangents: Vec::new(), rest: Vec::new(), twelfths: 0 };
         let mut open = vec![(place, Rational::from(1))];
@@ -114,8 +133,12 @@ impl Angle {
                 _ => found.rest.push((at, factor)),
             }
         }
-        let has_broken_part = found.twelfths % 6 != 0;
-        (has_broken_part || !found.arctangents.is_empty()).then_some(found)
+        Some(found)
+    }
+
+    /// Whether it contains a broken part of a quarter turn.
+    fn has_broken_part(&self) -> bool {
+        self.twelfths % 6 != 0
     }
 
     /// Records the sine or the cosine, from the values at places.

@@ -60,8 +60,8 @@ fn constraints_on_a_body_are_counted_on_the_sphere() {
 #[test]
 fn an_equation_with_other_zeros_is_no_unit_vector() {
     // The chart makes the sphere of radius 2, on which the body is free.
-    let two = "title = 't'\nsystem = 'nonholonomic'\n[parameters]\ne = 'vector(1..2)'\nI = 'diag(1..2, 3..4, 5..6)'\n\
-        [state]\nw = 'vector(-2..2)'\ng = 'vector(-3..3)'\n[field]\n\"g'\" = 'g × w'\n[lagrangian]\n\
+    let two = "title = 't'\nsystem = 'nonholonomic'\n[parameters]\ne = 'vector(1..2)'\nI1 = '1..2'\nI2 = '3..4'\nI3 = '5..6'\n\
+        I = 'diag(I1, I2, I3)'\n[state]\nw = 'vector(-2..2)'\ng = 'vector(-3..3)'\n[field]\n\"g'\" = 'g × w'\n[lagrangian]\n\
         kinetic = '(w,I*w)/2'\nquasi-velocities = ['w']\nalgebra = 'so(3)'\npotential = '(e,g)*((g,g) - 4)'\n[level]\n\
         equations = ['((g,g) - 1)*((g,g) - 4) = 0']\n[level.chart]\n\
         inputs = { u = '-2..2', v = '-2..2', z = 'vector(-1..1)' }\n\
