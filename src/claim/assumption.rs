@@ -32,7 +32,9 @@ impl Assumption {
     pub fn words(self) -> &'static str {
         match self {
             Self::OneToOne => "Φ is one-to-one",
-            Self::Invertible => "the map can be inverted on every part of the states",
+            Self::Invertible => {
+                "the map, or the change of variables, can be inverted on every part of the states"
+            }
             Self::SmoothSurface => "the surface is smooth for all γ",
             Self::NonzeroVolume => "the volume form of the criterion is nowhere 0",
         }

@@ -19,7 +19,7 @@ use liouville::mechanics::{Dependence, Meaning};
 use liouville::verdict::{ClaimReport, Verdict};
 
 /// Length in letters of a formula that is left as it is.
-const SHORT: usize = 12;
+const SHORT: usize = 20;
 /// Largest number of inner products.
 const MOST_PRODUCTS: usize = 40;
 /// Largest number of terms.

@@ -13,13 +13,16 @@ use crate::number::UnaryFunction;
 use crate::number::ball::{Ball, Balls};
 use crate::number::float::Float;
 use crate::number::rational::Rational;
-use crate::proof::{Extent, InputDistribution, Prover};
+use crate::proof::{Extent, InputDistribution, Prover, is_nowhere_zero};
 use crate::scalar::Scalar;
 
 /// Number of states at which the signs are looked at.
 const STATES: usize = 16;
 /// Largest number of velocities of which the signs are looked at.
 const MOST_VELOCITIES: usize = 32;
+/// Largest number of velocities and constraints that are solved for by minors because nothing is known of a pivot: more
+/// lose digits.
+const MOST_BY_MINORS: usize = 6;
 /// Seed of the proofs that leading minors are not 0.
 const SEED: u64 = 1;
 
@@ -36,10 +39,10 @@ impl Lagrangian {
     /// listed values or another. `false` where there are no velocities.
     pub fn needs_minors(&self, model: &Model, chart: &Chart, free: &[Draw]) -> bool {
         let velocities = self.velocities(&model.state);
-        if velocities.is_empty() || (velocities.len() > MOST_VELOCITIES && !self.has_moduli(model))
-        {
+        if velocities.is_empty() || velocities.len() > MOST_VELOCITIES {
             return false;
         }
+        let are_few = velocities.len() + self.constraints.len() <= MOST_BY_MINORS;
         let level = vec![true; model.level.len()];
         let mut places = vec![level.clone()];
         if !level.is_empty() {
@@ -55,10 +58,10 @@ impl Lagrangian {
             let is_regular = |choice: &Vec<Option<Rational>>| {
                 drawn(choice).is_none_or(|own| own.has_pivots(&draws).unwrap_or(false))
             };
-            if !choices.iter().all(is_regular) {
+            if are_few && !choices.iter().all(is_regular) {
                 return true;
             }
-            if *kept == level && velocities.len() <= MOST_VELOCITIES {
+            if *kept == level {
                 let Some(own) = drawn(&vec![None; draws.len()]) else { return false };
                 if own.is_indefinite_somewhere(velocities.len(), &draws, &choices) {
                     return true;
@@ -66,17 +69,6 @@ impl Lagrangian {
             }
         }
         false
-    }
-
-    /// Whether a modulus occurs in 𝓛.
-    fn has_moduli(&self, model: &Model) -> bool {
-        let parameters = model.free_components();
-        let recorded = record(parameters + model.dimension(), |inputs| {
-            let (parameters, state) = inputs.split_at(parameters);
-            self.lagrangian(&Phase::new(model, parameters, state).configuration, self.vakonomic)
-        });
-        let is_modulus = |step: Step<'_>| matches!(step, Step::Unary(UnaryFunction::Abs, _));
-        recorded.is_ok_and(|(graph, value)| graph.has_step(&[value], is_modulus))
     }
 
     fn drawn_masses(
@@ -134,9 +126,13 @@ impl DrawnMasses {
     /// Whether each divisor is seen to be 0 on no open set of states: in a ball at one of them, where it is one analytic
     /// function, or by a proof on each cell of signs of its moduli and roots.
     fn has_pivots(&self, draws: &[Draw]) -> Result<bool, Fault> {
+        let extents: Vec<Extent> = draws.iter().map(Draw::extent).collect();
+        // √l with l in 1..2 is analytic.
+        let may_vanish =
+            |place: usize| !is_nowhere_zero(&self.graph, &extents, &[], &[self.graph.at(place)]);
         let has_kinks = self.graph.has_step(&self.pivots, |step| match step {
-            Step::Unary(UnaryFunction::Abs | UnaryFunction::Sqrt, _) => true,
-            Step::Power(_, exponent) => exponent.to_integer().is_none(),
+            Step::Unary(UnaryFunction::Abs | UnaryFunction::Sqrt, a) => may_vanish(a),
+            Step::Power(a, exponent) => exponent.to_integer().is_none() && may_vanish(a),
             _ => false,
         });
         if !has_kinks {
@@ -157,7 +153,6 @@ impl DrawnMasses {
             _ => InputDistribution::Uniform,
         };
         let sources: Vec<InputDistribution> = draws.iter().map(source).collect();
-        let extents: Vec<Extent> = draws.iter().map(Draw::extent).collect();
         let prover = Prover { sources: &sources, extents: &extents, seed: SEED };
         for pivot in &self.pivots {
             let is_known = match self.graph.constant_value(*pivot) {

@@ -48,7 +48,8 @@ use serde::Serialize;
 use liouville::case::{Case, CaseRemark, Expect};
 use liouville::claim::{Claim, NoDensityNear, Statement};
 use liouville::formula::Formula;
-use liouville::mechanics::{System, TIME};
+use liouville::mechanics::{Chart, Draw, NumberLine, System, TIME};
+use liouville::number::rational::Rational;
 use liouville::verdict::{JudgeError, Options, Verdict, judge};
 use liouville_flow::observe::evidence_against_density;
 
@@ -329,7 +330,17 @@ fn of_all_values(
 
 /// Whether 0 is proved to be a rest of a field at which no density is continuous and positive.
 fn changes_volumes_at_zero(case: &Case, options: &Options) -> bool {
-    let is_field = matches!(case.model.system, System::Field(_));
+    let is_inside = |draw: &Draw| match draw {
+        Draw::Within(range) => {
+            let zero = Rational::from(0);
+            range.low < zero && zero < range.high
+        }
+        Draw::Of(NumberLine::All, _) => true,
+        _ => false,
+    };
+    let is_field = matches!(case.model.system, System::Field(_))
+        && matches!(case.chart, Chart::Free)
+        && case.free_draws.iter().all(is_inside);
     let at_zero = Claim::of(NoDensityNear::NAME, Vec::<(String, Formula)>::new());
     let judged = case.with_claims(&[at_zero]).ok().filter(|_| is_field);
     let judged = judged.and_then(|asked| judge(&asked, options).ok());

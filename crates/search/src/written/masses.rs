@@ -69,7 +69,11 @@ fn made(case: &Case) -> Option<Vec<Formula>> {
     let density = writer::written(&mut reader, &density, Constants::Left)?.text;
     let gram = determinant(&products)?;
     let gram = writer::written(&mut reader, &gram, Constants::Left)?.text;
-    let texts = [density.clone(), format!("({density})/√({gram})")];
+    let along = match gram == density {
+        true => format!("√({gram})"),
+        false => format!("({density})/√({gram})"),
+    };
+    let texts = [density.clone(), along];
     let count = if gram == "1" { 1 } else { 2 };
     Some(texts[..count].iter().filter_map(|text| case.formula(text).ok()).collect())
 }
