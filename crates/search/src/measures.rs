@@ -16,8 +16,8 @@ use super::{Effort, Found, SearchError, SearchReport};
 const MOST_INTEGRALS: usize = 6;
 /// Longest factor, in letters.
 const LONGEST: usize = 200;
-/// Largest multiple of its length by which a density may grow: a long one is not at hand.
-const MOST_GROWTH: usize = 2;
+/// Number of letters by which a density may grow beyond twice its length: a long one is not at hand.
+const MOST_GROWTH: usize = 12;
 
 /// Replaces densities of the report by densities of measures, where one of these is at hand.
 pub fn prefer(case: &Case, effort: &Effort, report: &mut SearchReport) -> Result<(), SearchError> {
@@ -80,7 +80,7 @@ fn with_integrals(
             let is_better = is_of_measure(&own.evidence)
                 || has_one_sign && written::has_small_poles(case, &product);
             let is_plain = !own.evidence.has(Flaw::Jumps)
-                && own.formula.chars().count() <= MOST_GROWTH * density.text().chars().count();
+                && own.formula.chars().count() <= 2 * density.text().chars().count() + MOST_GROWTH;
             if is_plain && is_better && found.as_ref().is_none_or(is_shorter) {
                 found = Some(own);
             }
