@@ -223,10 +223,10 @@ fn bracket<R: Reader>(from: &R) -> Result<(MotionBracket, bool), R::Error> {
     let is_named = from.text(CHOICE)?.is_some();
     if let System::Lagrangian(own) = &model.system
         && !is_named
+        && own.has_canonical_momenta()
+        && model.level.is_empty()
     {
-        if own.has_canonical_momenta() && model.level.is_empty() {
-            return Ok((MotionBracket::OfMomenta, true));
-        }
+        return Ok((MotionBracket::OfMomenta, true));
     }
     if matches!(model.system, System::Lagrangian(_)) && !is_named && model.variables.is_none() {
         let message = "the momenta of this Lagrangian have no bracket of their own".to_string();

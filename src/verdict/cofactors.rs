@@ -77,7 +77,7 @@ impl Judging<'_> {
         let is_of_field = |pole: &Expr| {
             *pole != function && of_field.contains(pole) && (misses_some || is_apart(pole))
         };
-        poles.retain(|pole| !(misses_some && !moves(pole)) && !is_of_field(pole));
+        poles.retain(|pole| (moves(pole) || !misses_some) && !is_of_field(pole));
         if poles.is_empty() {
             return Ok(true);
         }

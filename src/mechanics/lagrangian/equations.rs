@@ -31,6 +31,9 @@ pub struct EquationTerms<T> {
     pub slopes: Vec<Vec<T>>,
 }
 
+/// A solver of A x = b for several b.
+type Solver<'s, T> = dyn Fn(&[Vec<T>], Vec<Vec<T>>) -> Vec<Vec<T>> + 's;
+
 /// Largest number of velocities and constraints of which determinants are written out.
 const MOST_ROWS: usize = 8;
 
@@ -71,11 +74,8 @@ impl<T: Scalar> LagrangianEquations<T> {
 }
 
 impl<T: Scalar> LagrangianEquations<T> {
-    /// Solves for the free accelerations first, and then for the reactions, each by a solver of A x = b for several b.
-    pub(super) fn solved_by(
-        self,
-        solve: &dyn Fn(&[Vec<T>], Vec<Vec<T>>) -> Vec<Vec<T>>,
-    ) -> LagrangianTerms<T> {
+    /// Solves for the free accelerations first, and then for the reactions, each by a solver.
+    pub(super) fn solved_by(self, solve: &Solver<'_, T>) -> LagrangianTerms<T> {
         let LagrangianEquations { velocities, drift, terms, carried } = self;
         let EquationTerms { mass, drive, slopes } = terms;
         let sides = [drive].into_iter().chain(slopes.iter().cloned()).collect();
