@@ -51,8 +51,8 @@ impl Judging<'_> {
 
     /// Whether a cofactor is known to have a value at every zero of F at which the field has one.
     ///
-    /// Its poles are poles of the field as written, at which no motion passes; or no zeros of F; or F and its denominator have no
-    /// common factor in lowest terms: with L_vF = A/B and κ = C/D in lowest terms, AD = BCF, so that D
+    /// Its poles are poles of the field as written, at which no motion passes; or no zeros of F; or F and its denominator
+    /// have no common factor in lowest terms: with L_vF = A/B and κ = C/D in lowest terms, AD = BCF, so that D
     /// divides B.
     pub(super) fn has_value_on_zeros(
         &self,

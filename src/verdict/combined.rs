@@ -23,11 +23,7 @@ impl Judging<'_> {
     /// Proves open claims whose residuals are combinations of the level functions; those about motions need that
     /// the rates of these functions are, too.
     pub(super) fn combine(&self, sampler: &Sampler, open: &mut Open<'_, '_>) -> Result<(), Fault> {
-        let kept = |all: &[Expr]| -> Vec<Expr> {
-            let pairs = all.iter().zip(sampler.kept()).filter(|(_, kept)| **kept);
-            pairs.map(|(value, _)| *value).collect()
-        };
-        let (level, rates) = (kept(&self.common.level), kept(&self.common.level_rates));
+        let (level, rates) = self.common.level_at(sampler.kept());
         let is_map = self.case.model.system.is_map();
         let mut of_rates: Option<Option<Certificate>> = None;
         for (item, status) in open.iter_mut() {
@@ -64,11 +60,7 @@ impl Judging<'_> {
 
     /// Whether the rates of the level functions are combinations of these, with values wherever the field has one.
     pub(super) fn is_kept_by_combination(&self, kept: &[bool]) -> Result<bool, Fault> {
-        let of = |all: &[Expr]| -> Vec<Expr> {
-            let pairs = all.iter().zip(kept).filter(|(_, kept)| **kept);
-            pairs.map(|(value, _)| *value).collect()
-        };
-        let (level, rates) = (of(&self.common.level), of(&self.common.level_rates));
+        let (level, rates) = self.common.level_at(kept);
         let known = self.needs(&[&self.common.required_at(kept)[..], &self.common.field].concat());
         let needed = self.needs(&rates);
         let has_value = needed.into_iter().all(|need| is_among(&known, need));

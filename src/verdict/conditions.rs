@@ -69,9 +69,9 @@ impl Judging<'_> {
                     if asks_one_to_one {
                         let remark = format!("{}, which is not proved", condition.otherwise);
                         status.evidence.add_remark(remark);
-                        Assumption::that(&condition.need)
-                            .into_iter()
-                            .for_each(|own| status.evidence.assume(own));
+                        if let Some(own) = Assumption::that(&condition.need) {
+                            status.evidence.assume(own);
+                        }
                     }
                     continue;
                 };
@@ -82,13 +82,15 @@ impl Judging<'_> {
                     continue;
                 }
                 status.evidence.add_remark(failure.words);
-                match failure.is_known {
-                    true => flaw(&condition.need)
-                        .into_iter()
-                        .for_each(|own| status.evidence.add_flaw(own)),
-                    false => Assumption::that(&condition.need)
-                        .into_iter()
-                        .for_each(|own| status.evidence.assume(own)),
+                let (flaw, assumption) = match failure.is_known {
+                    true => (flaw(&condition.need), None),
+                    false => (None, Assumption::that(&condition.need)),
+                };
+                if let Some(own) = flaw {
+                    status.evidence.add_flaw(own);
+                }
+                if let Some(own) = assumption {
+                    status.evidence.assume(own);
                 }
             }
         }

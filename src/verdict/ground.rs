@@ -98,15 +98,9 @@ impl Judging<'_> {
         place: &LevelSubset,
         sampler: &Sampler,
     ) -> Result<Vec<Expr>, Fault> {
-        let kept = |all: &[Expr]| -> Vec<Expr> {
-            let pairs = all.iter().zip(&place.kept).filter(|(_, kept)| **kept);
-            pairs.map(|(value, _)| *value).collect()
-        };
-        let rates = match self.is_at_rest(sampler)? {
-            true => Vec::new(),
-            false => kept(&self.common.level_rates),
-        };
-        Ok([kept(&self.common.level), rates].concat())
+        let (level, rates) = self.common.level_at(&place.kept);
+        let rates = if self.is_at_rest(sampler)? { Vec::new() } else { rates };
+        Ok([level, rates].concat())
     }
 
     /// Whether the states are a part of lower dimension on which the field folds to 0, as at the vertex of a

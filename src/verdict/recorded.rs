@@ -155,6 +155,15 @@ impl SharedTerms {
 }
 
 impl SharedTerms {
+    /// Returns the level functions of these equations, and their rates.
+    pub fn level_at(&self, kept: &[bool]) -> (Vec<Expr>, Vec<Expr>) {
+        let of = |all: &[Expr]| {
+            let pairs = all.iter().zip(kept).filter(|(_, kept)| **kept);
+            pairs.map(|(value, _)| *value).collect()
+        };
+        (of(&self.level), of(&self.level_rates))
+    }
+
     /// Returns the values that exist at every state at which these equations of the level hold.
     pub fn required_at(&self, kept: &[bool]) -> Vec<Expr> {
         let level = self.level_requirement.iter().zip(kept).filter(|(_, kept)| **kept);

@@ -1,4 +1,4 @@
-//! How equations of motion are solved for the accelerations: by elimination, or by minors of the masses ∂²L/∂w².
+//! Solution of the equations of motion for the accelerations, by elimination or by minors of the masses ∂²L/∂w².
 //!
 //! Elimination divides by leading minors, of the masses and of the matrix a M⁻¹ aᵀ of the reactions. Where they are 0 on no open set, it has a value at almost every state at
 //! which the determinant is not 0; and at all of them where the matrix is definite, as its determinant then vanishes
@@ -62,7 +62,9 @@ impl Lagrangian {
                 return true;
             }
             if *kept == level {
-                let Some(own) = drawn(&vec![None; draws.len()]) else { return false };
+                let any = vec![None; draws.len()];
+                let own = drawn(if let [only] = &choices[..] { only } else { &any });
+                let Some(own) = own else { return false };
                 if own.is_indefinite_somewhere(velocities.len(), &draws, &choices) {
                     return true;
                 }

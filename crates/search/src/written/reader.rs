@@ -127,7 +127,7 @@ impl<'c> Reader<'c> {
         own.power(power)
     }
 
-    /// What an abbreviation stands for, where these are read so.
+    /// Meaning of an abbreviation, where these are read so.
     fn abbreviated(&self, name: &str) -> Option<String> {
         let model = &self.case().model;
         match model.vocabulary.find(name).filter(|_| self.expands)?.meaning {

@@ -1,4 +1,4 @@
-//! What closed orbits are proved to keep: the functions themselves, whatever a file calls them.
+//! Functions that closed orbits are proved to keep, whatever a file calls them.
 
 use super::judged;
 use liouville::verdict::Verdict;
