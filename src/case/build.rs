@@ -320,12 +320,12 @@ pub fn extend_support(model: &mut Model) {
 /// Notes how the accelerations of a Lagrangian are solved for, and for which listed values nothing moves.
 fn note_masses(parts: &mut ModelParts) {
     let ModelParts { model, chart, free_draws, .. } = parts;
-    let needs_minors = match &model.system {
-        System::Lagrangian(own) => own.needs_minors(model, chart, free_draws),
-        _ => false,
+    let solver = match &model.system {
+        System::Lagrangian(own) => Some(own.acceleration_solver(model, chart, free_draws)),
+        _ => None,
     };
-    if let System::Lagrangian(own) = &mut model.system {
-        own.needs_minors = needs_minors;
+    if let (System::Lagrangian(own), Some(solver)) = (&mut model.system, solver) {
+        own.solver = solver;
     }
     model.undetermined = model.find_undetermined();
 }

@@ -10,8 +10,8 @@ use super::shaped;
 use super::systems::Reading;
 use crate::formula::{Formula, Type, canonical_name};
 use crate::mechanics::{
-    Algebra, Dependence, Lagrangian, LevelEquation, System, TIME, Variable, VariableRole,
-    Vocabulary,
+    AccelerationSolver, Algebra, Dependence, Lagrangian, LevelEquation, System, TIME, Variable,
+    VariableRole, Vocabulary,
 };
 
 fn other(text: &SpannedStr, message: String, remedy: &str) -> Mistake {
@@ -55,7 +55,7 @@ pub fn read(
         algebra: algebra?,
         forces: forces?,
         vakonomic,
-        needs_minors: false,
+        solver: AccelerationSolver::ELIMINATION,
     }));
     reading.level = level;
     Some(system)

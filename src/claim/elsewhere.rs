@@ -5,15 +5,26 @@ use num_traits::Zero;
 
 use super::{Condition, Need};
 use crate::formula::Formula;
-use crate::graph::{Expr, edges, left_out, literally};
-use crate::mechanics::{Model, Phase};
+use crate::graph::{Expr, edges, literally};
+use crate::mechanics::{LevelFunction, Model, Phase};
 
-/// Records the equations of motion as written at the image of a state: where they have no value the image
-/// is not in phase space.
-pub(super) fn system_at(at: &Phase<'_, Expr>) -> Vec<Expr> {
+/// Records the equations of motion and some level equations as written at the image of a state: where they have no
+/// value the image is not in phase space, or not on the level.
+pub(super) fn system_at(at: &Phase<'_, Expr>, kept: &[bool]) -> Vec<Expr> {
     let mut values = formulas_at(at);
     values.extend(at.hidden_in_motion(&values));
+    values.extend(level_at(at, kept));
     values
+}
+
+/// Records some level equations as written at a point: where they have no value it is not on the level.
+pub fn level_at(at: &Phase<'_, Expr>, kept: &[bool]) -> Vec<Expr> {
+    let equations = at.model().level.iter().zip(kept).filter(|(_, kept)| **kept);
+    let formulas = equations.filter_map(|(own, _)| match &own.function {
+        LevelFunction::Formula(formula) => Some(formula),
+        _ => None,
+    });
+    formulas.flat_map(|formula| written_at(at, formula)).collect()
 }
 
 /// Records the same at a point that a claim names. The slope of an energy has no value there where what is
@@ -22,10 +33,8 @@ pub(super) fn system_at_point(at: &Phase<'_, Expr>) -> Vec<Expr> {
     let formulas = formulas_at(at);
     match at.model().system.has_given_rates() {
         true => formulas,
-        false => {
-            let hidden = left_out(at.field(), &at.motion_as_written());
-            [inside(formulas), hidden].concat()
-        }
+        // Also what the values of the field show: 1/sin π is no operation any more once sin π is 0.
+        false => [inside(formulas), at.motion_as_written()].concat(),
     }
 }
 

@@ -5,7 +5,7 @@ use num_dual::Dual;
 use super::boxes::{Boxes, multiple_text};
 use super::clock::never_rests;
 use super::components::Components;
-use super::elsewhere::{inside, system_at_point};
+use super::elsewhere::{inside, level_at, system_at_point};
 use super::point::read_point;
 use super::statement::Objection;
 use super::{ComplexFormula, Reader, Statement, ValueShape, difference};
@@ -138,12 +138,15 @@ impl Statement for FixedPoint {
         values
     }
 
-    fn presence(&self, jet: &DualPoint<'_, Expr>) -> Vec<Expr> {
-        let written = system_at_point(&jet.phase.with(&[], &self.point.at(&jet.phase)));
-        match self.spectrum.is_some() || self.polynomial.is_some() {
+    fn presence(&self, jet: &DualPoint<'_, Expr>, kept: &[bool]) -> Vec<Expr> {
+        let at = jet.phase.with(&[], &self.point.at(&jet.phase));
+        let written = system_at_point(&at);
+        let mut values = match self.spectrum.is_some() || self.polynomial.is_some() {
             true => inside(written),
             false => written,
-        }
+        };
+        values.extend(level_at(&at, kept));
+        values
     }
 
     fn residual<T: Scalar>(&self, jet: &DualPoint<'_, T>, kept: &[bool]) -> Vec<T> {

@@ -43,17 +43,6 @@ pub struct Limit {
     parameter: usize,
 }
 
-/// Whether a formula contains quantities that the system defines, such as rates.
-fn has_quantities(model: &Model, formula: &Formula) -> bool {
-    formula.symbols().any(|symbol| match model.vocabulary.entry(symbol).meaning {
-        Meaning::Quantity(_) => true,
-        Meaning::Abbreviation(index) => {
-            model.abbreviations.get(index).is_some_and(|own| has_quantities(model, own))
-        }
-        Meaning::Parameter(_) | Meaning::State(_) => false,
-    })
-}
-
 /// Whether a formula contains a parameter, itself or by others that are computed from it.
 fn uses(model: &Model, formula: &Formula, parameter: usize) -> bool {
     formula.symbols().any(|symbol| match model.vocabulary.entry(symbol).meaning {
@@ -101,7 +90,7 @@ impl Statement for Limit {
         });
         let moves = |own: &Formula| {
             let model = from.model();
-            let is_of_system = has_quantities(model, own);
+            let is_of_system = model.has_quantities(own);
             uses(model, own, parameter)
                 || is_of_system && model.dynamics().iter().any(|own| uses(model, own, parameter))
         };
@@ -148,11 +137,11 @@ impl Statement for Limit {
 
     /// A as written at 0: with 0/(x + |x| + 0) it has no value for x < 0, where A is 1. Where it has
     /// none anywhere, what its expansion requires.
-    fn presence(&self, jet: &DualPoint<'_, Expr>) -> Vec<Expr> {
+    fn presence(&self, jet: &DualPoint<'_, Expr>, _: &[bool]) -> Vec<Expr> {
         let zero = [(self.parameter, Value::Scalar(Expr::zero()))];
         let at = jet.phase.with(&zero, &jet.phase.state());
         let model = at.model();
-        let uses_motion = has_quantities(model, &self.function);
+        let uses_motion = model.has_quantities(&self.function);
         let functions = if uses_motion { model.dynamics() } else { Vec::new() };
         let mut presence = Vec::new();
         for formula in functions.into_iter().chain([&self.function]) {

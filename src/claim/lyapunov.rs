@@ -88,7 +88,7 @@ impl Statement for Lyapunov {
         [&self.function].into_iter().chain(&self.rate).collect()
     }
 
-    fn presence(&self, jet: &DualPoint<'_, Expr>) -> Vec<Expr> {
+    fn presence(&self, jet: &DualPoint<'_, Expr>, _: &[bool]) -> Vec<Expr> {
         vec![self.growth(jet)]
     }
 

@@ -52,6 +52,7 @@ mod value;
 mod volume;
 
 use boxes::Boxes;
+pub(crate) use elsewhere::level_at;
 use elsewhere::{inverse_at, written_at};
 
 use crate::formula::{Formula, Layout};
@@ -266,8 +267,8 @@ impl ClaimKind {
     }
 
     /// Computes values, recorded literally, without which the claim has no meaning.
-    pub fn presence(&self, jet: &DualPoint<'_, Expr>) -> Vec<Expr> {
-        of_each!(self, statement => statement.presence(jet))
+    pub fn presence(&self, jet: &DualPoint<'_, Expr>, kept: &[bool]) -> Vec<Expr> {
+        of_each!(self, statement => statement.presence(jet, kept))
     }
 
     /// Computes auxiliary values, needed at a few states only.

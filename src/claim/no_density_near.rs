@@ -10,7 +10,7 @@
 
 use super::clock::never_rests;
 use super::components::Components;
-use super::elsewhere::{inside, system_at_point};
+use super::elsewhere::{inside, level_at, system_at_point};
 use super::point::read_point;
 use super::statement::Objection;
 use super::{Condition, Need, Reader, ResidualContext, Statement, ValueShape, difference};
@@ -76,8 +76,11 @@ impl Statement for NoDensityNear {
         self.0.written(&jet.phase)
     }
 
-    fn presence(&self, jet: &DualPoint<'_, Expr>) -> Vec<Expr> {
-        inside(system_at_point(&jet.phase.with(&[], &self.0.at(&jet.phase))))
+    fn presence(&self, jet: &DualPoint<'_, Expr>, kept: &[bool]) -> Vec<Expr> {
+        let at = jet.phase.with(&[], &self.0.at(&jet.phase));
+        let mut values = inside(system_at_point(&at));
+        values.extend(level_at(&at, kept));
+        values
     }
 
     fn context(&self, jet: &DualPoint<'_, Expr>, kept: &[bool]) -> ResidualContext {

@@ -134,7 +134,7 @@ pub trait Statement: Clone {
 
     /// Computes values, recorded literally, without which the claim has no meaning although all that
     /// is written has a value: at another point, for another parameter, or of a determinant's inverse.
-    fn presence(&self, _: &DualPoint<'_, Expr>) -> Vec<Expr> {
+    fn presence(&self, _: &DualPoint<'_, Expr>, _: &[bool]) -> Vec<Expr> {
         Vec::new()
     }
 

@@ -103,8 +103,8 @@ impl Statement for Symmetry {
         self.map.formulas()
     }
 
-    fn presence(&self, jet: &DualPoint<'_, Expr>) -> Vec<Expr> {
-        system_at(&self.map.point(&jet.phase))
+    fn presence(&self, jet: &DualPoint<'_, Expr>, kept: &[bool]) -> Vec<Expr> {
+        system_at(&self.map.point(&jet.phase), kept)
     }
 
     /// No time runs where λ is 0.
@@ -184,14 +184,14 @@ impl Statement for Reversor {
         Ok(Self(map))
     }
 
-    fn presence(&self, jet: &DualPoint<'_, Expr>) -> Vec<Expr> {
+    fn presence(&self, jet: &DualPoint<'_, Expr>, kept: &[bool]) -> Vec<Expr> {
         let there = self.0.point(&jet.phase);
-        let mut values = system_at(&there);
+        let mut values = system_at(&there, kept);
         values.extend(self.0.formulas().into_iter().flat_map(|own| written_at(&there, own)));
         if jet.phase.model().system.is_map() {
             let next = jet.image();
             values.extend(self.0.formulas().into_iter().flat_map(|own| written_at(&next, own)));
-            values.extend(system_at(&self.0.point(&next)));
+            values.extend(system_at(&self.0.point(&next), kept));
         }
         values
     }

@@ -16,12 +16,15 @@ mod equations;
 mod masses;
 mod momenta;
 
+use self::equations::MOST_ROWS;
 pub use self::equations::{EquationTerms, LagrangianEquations};
+pub use self::masses::AccelerationSolver;
 use self::masses::eliminated;
 
 use super::configuration::Configuration;
 use super::dynamics::Dynamics;
-use super::model::Variable;
+use super::elimination::solve_by_minors;
+use super::model::{Model, Variable};
 use super::phase::Phase;
 use super::quantity::Quantity;
 use crate::formula::{Formula, Value};
@@ -44,8 +47,8 @@ pub struct Lagrangian {
     pub forces: Vec<(usize, Formula)>,
     /// Whether the motion is vakonomic, with multipliers in the state.
     pub vakonomic: bool,
-    /// Whether the accelerations are solved for by minors of ∂²L/∂w².
-    pub needs_minors: bool,
+    /// Method by which the accelerations are solved for.
+    pub solver: AccelerationSolver,
 }
 
 /// The role of a state variable.
@@ -212,9 +215,26 @@ impl Lagrangian {
 
     fn motion<T: Scalar>(&self, phase: &Phase<'_, T>) -> LagrangianTerms<T> {
         let equations = self.equations(phase);
-        match self.may_be_eliminated(&equations.terms.mass) {
-            true => equations.solved_by(&eliminated),
-            false => equations.by_minors(),
+        let equations = match self.solver.with_slopes {
+            true => equations.with_slopes(),
+            false => equations,
+        };
+        if self.may_be_eliminated(&equations.terms.mass) {
+            return equations.solved_by(&eliminated);
+        }
+        match equations.is_small() {
+            true => equations.by_determinant(),
+            false => equations.solved_by(&|matrix, sides| solve_by_minors(matrix, &sides)),
+        }
+    }
+
+    /// Whether the equations of motion are known to have one solution at almost every state at which what they are
+    /// divided by is not 0, and at no others.
+    pub fn has_known_divisors(&self, model: &Model) -> bool {
+        let rows = self.velocities(&model.state).len() + self.constraints.len();
+        match self.solver.by_minors {
+            true => rows <= MOST_ROWS,
+            false => self.solver.is_known,
         }
     }
 }

@@ -57,6 +57,13 @@ impl Phase<'_, Expr> {
     /// A determinant of masses may be 0 at all states, though not by its form. A modulus may hide the sign of
     /// more, so that all that is written is asked then.
     pub fn hidden_in_motion(&self, written: &[Expr]) -> Vec<Expr> {
+        let system = &self.model().system;
+        // Where elimination may divide by 0 on an open set, the states there count nevertheless.
+        if let System::Lagrangian(own) = system
+            && !own.has_known_divisors(self.model())
+        {
+            return Vec::new();
+        }
         if has_moduli(written) {
             return self.motion_as_written();
         }
@@ -65,7 +72,6 @@ impl Phase<'_, Expr> {
             let inverse = |divisor: Expr| literally(|| divisor.apply(UnaryFunction::Recip));
             left_out(&kept, &divisors.into_iter().map(inverse).collect::<Vec<Expr>>())
         };
-        let system = &self.model().system;
         hidden(match (system, system.inertia_divisor(&self.configuration)) {
             // The rate of γ shows what else a body divides by.
             (_, Some(divisor)) => vec![divisor],

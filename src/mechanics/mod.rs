@@ -47,7 +47,9 @@ pub use configuration::Configuration;
 pub use draws::DrawSource;
 pub use flat_base::FlatBase;
 pub use hamiltonian::HamiltonianSystem;
-pub use lagrangian::{Algebra, EquationTerms, Lagrangian, LagrangianEquations, VariableRole};
+pub use lagrangian::{
+    AccelerationSolver, Algebra, EquationTerms, Lagrangian, LagrangianEquations, VariableRole,
+};
 pub use level_equation::{ENTRY, LevelEquation, LevelFunction, RootEquation, written};
 pub use listed::{ListedValues, combinations};
 pub use model::{MatrixShape, Model, Parameter, ParameterOrigin, TIME, Variable, components};

@@ -95,4 +95,15 @@ impl Model {
         let own = self.system.functions().into_iter().chain(self.system.constants());
         own.chain(&self.extension).collect()
     }
+
+    /// Whether a formula contains quantities that the system defines, such as rates.
+    pub fn has_quantities(&self, formula: &Formula) -> bool {
+        formula.symbols().any(|symbol| match self.vocabulary.entry(symbol).meaning {
+            Meaning::Quantity(_) => true,
+            Meaning::Abbreviation(index) => {
+                self.abbreviations.get(index).is_some_and(|own| self.has_quantities(own))
+            }
+            Meaning::Parameter(_) | Meaning::State(_) => false,
+        })
+    }
 }

@@ -104,7 +104,13 @@ impl Judging<'_> {
 
     fn find_thin_image(&self, sampler: &Sampler) -> Result<Option<String>, Fault> {
         let case = self.case;
-        let Some(choices) = combinations(sampler.recipes()) else { return Ok(None) };
+        let Some(choices) = combinations(sampler.recipes()) else {
+            return Ok(Some(
+                "there are too many combinations of listed values to know whether each image of [level.chart] has \
+                 all dimensions of the level"
+                    .to_string(),
+            ));
+        };
         let rank = case.model.dimension().saturating_sub(case.model.level.len());
         let (draws, parameters) = (sampler.recipes().len(), sampler.parameter_draws());
         for fixed in choices {

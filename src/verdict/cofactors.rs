@@ -8,9 +8,9 @@ use super::judging::Judging;
 use super::recorded::RecordedClaim;
 use super::sampler::Sampler;
 use crate::claim::LevelSubset;
-use crate::graph::{Expr, Fault, Graph};
+use crate::graph::{Expr, Fault, Graph, Need, record};
 use crate::mechanics::{Chart, combinations};
-use crate::proof::{Extent, are_coprime, is_nowhere_zero};
+use crate::proof::{Extent, are_coprime, is_nowhere_zero, sign};
 
 /// A cofactor, or a part of it that must have a value.
 pub(super) struct Cofactor {
@@ -78,7 +78,11 @@ impl Judging<'_> {
             *pole != function && of_field.contains(pole) && (misses_some || is_apart(pole))
         };
         poles.retain(|pole| (moves(pole) || !misses_some) && !is_of_field(pole));
-        if poles.is_empty() {
+        // What is under a root may be negative where F = 0: the cofactor then says nothing of F = 0.
+        let roots_of_field = roots_of(self.graph, &self.common.required_at(sampler.kept()));
+        let mut roots = roots_of(self.graph, &[cofactor.factor]);
+        roots.retain(|root| moves(&root.0) && !roots_of_field.contains(root));
+        if poles.is_empty() && roots.is_empty() {
             return Ok(true);
         }
         let Some(Filling { sampler: filling, extents }) = self.filling(sampler)? else {
@@ -87,20 +91,26 @@ impl Judging<'_> {
         // What is divided by in lowest terms follows from an identity in the same variables.
         let is_identity =
             filling.kept() == sampler.kept() || self.holds_in_space(&filling, item)?;
-        let outputs = [&[function, cofactor.inverse][..], &poles].concat();
+        let radicands: Vec<Expr> = roots.iter().map(|root| root.0).collect();
+        let outputs = [&[function, cofactor.inverse][..], &poles, &radicands].concat();
         let Some(combinations) = combinations(filling.recipes()) else { return Ok(false) };
         for fixed in combinations {
             let (graph, groups) =
                 filling.compose(self.graph, std::slice::from_ref(&outputs), &fixed)?;
             let group = groups.concat();
-            let (function, poles) = (group[0], &group[2..]);
+            let (function, (poles, radicands)) = (group[0], group[2..].split_at(poles.len()));
+            for (radicand, (_, need)) in radicands.iter().zip(&roots) {
+                if !has_root_on_zeros(&graph, &extents, (function, *radicand), *need)? {
+                    return Ok(false);
+                }
+            }
             let are_coprime =
                 |values: &[Expr]| is_identity && are_coprime(&graph, values, self.options.seed);
             let is_apart = |pole: &Expr| {
                 are_coprime(&[function, *pole]) || are_apart(&graph, &extents, function, *pole)
             };
             // In lowest terms the denominator may be smaller than written.
-            if !are_coprime(&group[..2]) && !poles.iter().all(is_apart) {
+            if !poles.is_empty() && !are_coprime(&group[..2]) && !poles.iter().all(is_apart) {
                 return Ok(false);
             }
         }
@@ -126,6 +136,31 @@ impl Judging<'_> {
 fn are_apart(graph: &Graph, extents: &[Extent], function: Expr, pole: Expr) -> bool {
     is_nowhere_zero(graph, extents, &[], &[function, pole])
         && !is_nowhere_zero(graph, extents, &[], &[function])
+}
+
+/// Whether what is under a root or a logarithm is known to be as needed at all zeros of a function.
+fn has_root_on_zeros(
+    graph: &Graph,
+    extents: &[Extent],
+    (function, radicand): (Expr, Expr),
+    need: Need,
+) -> Result<bool, Fault> {
+    let reached = graph.reached([function, radicand]);
+    let (made, values) = record(graph.inputs(), |inputs| {
+        let values = graph.repeated(&reached, inputs);
+        let [function, radicand] = [function, radicand].map(|own| values[graph.place(own)]);
+        Some(([function?, -function?], radicand?))
+    })?;
+    let Some((zero, radicand)) = values else { return Ok(false) };
+    let found = sign(&made, extents, &[], &zero, radicand);
+    Ok(found.is_some_and(|own| own.is_positive && !(own.may_vanish && need.nonzero)))
+}
+
+/// Lists what is under roots and logarithms in some values, with what is needed of it.
+fn roots_of(graph: &Graph, values: &[Expr]) -> Vec<(Expr, Need)> {
+    let reached = graph.reached(values.iter().copied());
+    let roots = graph.needs(&reached).filter(|(_, need)| need.not_negative);
+    roots.map(|(place, need)| (graph.at(place), need)).collect()
 }
 
 /// Lists the values that must not be 0 for others to be bounded nearby.

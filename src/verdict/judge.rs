@@ -344,6 +344,7 @@ fn judge_all(
     bench.extend_domain(&recorded, &mut statuses)?;
     bench.leave_flat_levels(&recorded, &mut statuses);
     bench.leave_unkept_levels(&recorded, &mut statuses)?;
+    bench.leave_open_quadratures(&recorded, &mut statuses);
     let pairs = recorded.iter().zip(&statuses);
     let lists: Vec<ListedUse> = pairs
         .map(|(item, status)| {

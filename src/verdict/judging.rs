@@ -7,8 +7,7 @@ use std::rc::Rc;
 use rustc_hash::FxHashMap;
 
 use super::branches::Missed;
-use super::claim_state::{BlockResult, are_zero};
-use super::field::{Answer, PrimeFieldStates, Query};
+use super::claim_state::BlockResult;
 use super::judge::{JudgeError, Options};
 use super::ladder::{LADDER_BITS, PRECISE_STATES};
 use super::level_slopes::FlatEquation;
@@ -48,6 +47,8 @@ pub struct Judging<'a> {
     pub(super) flat: RefCell<Vec<FlatEquation>>,
     /// Whether the motion is proved to stay on the equations of a place, on all parts of it that were judged.
     pub(super) kept: RefCell<FxHashMap<Vec<bool>, bool>>,
+    /// Reason why nothing is proved of the motion, where an ∫ in its equations may depend on more than its variable.
+    pub(super) open_quadrature: RefCell<Option<String>>,
     /// Samplers of whole places, by the equations that hold there.
     samplers: RefCell<FxHashMap<Vec<bool>, Rc<Sampler>>>,
     /// Whether the map is proved to be one-to-one, by the equations that hold at a place and by the
@@ -76,6 +77,7 @@ impl<'a> Judging<'a> {
             pieces: RefCell::default(),
             flat: RefCell::default(),
             kept: RefCell::default(),
+            open_quadrature: RefCell::default(),
             samplers: RefCell::default(),
             one_to_one: RefCell::default(),
         }
@@ -253,39 +255,6 @@ impl Judging<'_> {
             Chart::Equations => JudgeError::OffSolution { equation, by },
             _ => JudgeError::OffLevel { equation, by },
         }
-    }
-
-    /// Checks that each ∫ of the equations of motion and of the new variables is a function of its
-    /// variable in all of phase space, where derivatives are taken; returns a warning where that is
-    /// unknown.
-    fn check_quadratures(&self) -> Result<Option<String>, JudgeError> {
-        let quadratures = self.common.quadratures.iter();
-        let open: Vec<_> = quadratures.filter(|(_, all)| !are_zero(self.graph, all)).collect();
-        if open.is_empty() {
-            return Ok(None);
-        }
-        let everywhere = LevelSubset::everywhere(&self.case.model);
-        let sampler = self.sampler_at(&everywhere)?;
-        let queries: Vec<Query> =
-            open.iter().map(|(_, defects)| Query::of(defects.clone())).collect();
-        let answers = PrimeFieldStates::new(self, &sampler).test(&queries)?;
-        let mut warning = None;
-        for ((text, defects), answer) in open.into_iter().zip(answers) {
-            let values = self.run(defects).at(&Ball::<TAPE_LANES>, &sampler.balls(0));
-            let all = [true; TAPE_LANES];
-            let seen = BlockResult::at::<Doubles>(&values.range(0..defects.len()), None, &all);
-            match answer {
-                Answer::Zero(_) => {}
-                Answer::Silent(_) | Answer::Void if !seen.excludes_zero() => {
-                    warning = Some(format!(
-                        "it is not proved that each integrand in `{text}` is a function of its variable \
-                         alone, as all verdicts suppose"
-                    ));
-                }
-                _ => return Err(JudgeError::Quadrature(text.clone())),
-            }
-        }
-        Ok(warning)
     }
 
     /// Whether the field is defined at some state, in double-double.

@@ -53,6 +53,7 @@ mod pivot_space;
 mod point;
 mod poles;
 mod preimages;
+mod quadratures;
 mod recorded;
 mod restriction;
 mod reversed;

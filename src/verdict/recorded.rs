@@ -7,12 +7,14 @@ use num_traits::Zero;
 use super::physics;
 use super::run::Values;
 use crate::case::{Expect, PlacedClaim};
-use crate::claim::{Condition, LevelSubset, Novelty, ResidualContext, quadrature_defects};
+use crate::claim::{
+    Condition, LevelSubset, Novelty, ResidualContext, level_at, quadrature_defects,
+};
 use crate::formula::Formula;
 use crate::graph::{Expr, literally};
 use crate::mechanics::calculus::DualPoint;
 use crate::mechanics::elimination::rejection;
-use crate::mechanics::{LevelEquation, LevelFunction, System};
+use crate::mechanics::{LevelEquation, LevelFunction, Phase, System};
 use crate::number::Enclosing;
 
 /// A claim with all expressions recorded for it.
@@ -39,7 +41,7 @@ pub struct Wider {
 impl<'c> RecordedClaim<'c> {
     /// Records the residual of a claim, at its place and in wider ones, and its context.
     pub fn new(claim: &'c PlacedClaim, jet: &DualPoint<'_, Expr>) -> Self {
-        let presence = claim.kind.presence(jet).into_iter();
+        let presence = claim.kind.presence(jet, &claim.place.kept).into_iter();
         let presence: Vec<Expr> = presence.filter(|value| !value.is_always_defined()).collect();
         // 0 where the value exists, and undefined elsewhere.
         let zeros: Vec<Expr> =
@@ -110,9 +112,19 @@ impl SharedTerms {
     pub fn of(jet: &DualPoint<'_, Expr>) -> Self {
         let phase = &jet.phase;
         let image = phase.model().system.is_map().then(|| jet.image());
-        let rate = |function| match &image {
-            Some(image) => image.level_function(function),
-            None => jet.lie_derivative(|at| at.level_function(function)),
+        // Where an equation as written has no value at the image, the map leaves the level.
+        let mapped = |image: &Phase<'_, Expr>, index: usize| {
+            let value = image.level_function(&phase.model().level[index].function);
+            let kept: Vec<bool> = (0..phase.model().level.len()).map(|own| own == index).collect();
+            let written = level_at(image, &kept).into_iter();
+            let written = written.filter(|value| !value.is_always_defined());
+            written.fold(value, |sum, own| literally(|| sum + own * Expr::zero()))
+        };
+        let rate = |index: usize| match &image {
+            Some(image) => mapped(image, index),
+            None => {
+                jet.lie_derivative(|at| at.level_function(&phase.model().level[index].function))
+            }
         };
         let own = matches!(
             phase.model().system,
@@ -131,7 +143,7 @@ impl SharedTerms {
                 phase.model().level.iter().map(formula).collect()
             },
             level: phase.model().level.iter().map(|e| phase.level_function(&e.function)).collect(),
-            level_rates: phase.model().level.iter().map(|e| rate(&e.function)).collect(),
+            level_rates: (0..phase.model().level.len()).map(rate).collect(),
             physics: physics::outputs(phase),
             symmetric: match &phase.model().system {
                 System::Hamiltonian(hamiltonian) => hamiltonian.symmetric_part(phase),

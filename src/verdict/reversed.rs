@@ -43,7 +43,9 @@ impl Judging<'_> {
             let (parameters, state) = inputs.split_at(free);
             let jet = DualPoint::new(Phase::new(model, parameters, state));
             let outputs = reversor.residual(&jet, sampler.kept());
-            let written = [reversor.presence(&jet), reversor.further_requirement(&jet)].concat();
+            let written =
+                [reversor.presence(&jet, sampler.kept()), reversor.further_requirement(&jet)]
+                    .concat();
             Group { outputs, required: written, ..Group::default() }
         })?;
         // The constant of an antiderivative is open.

@@ -42,6 +42,20 @@ fn special_angles_have_their_values() {
         ],
     );
     assert_eq!(related, vec![Verdict::Proved; 3]);
+    // Whole quarters, and parts of π that vary, are taken apart with the others.
+    let whole = verdicts(
+        FIELD,
+        &[
+            "identity = 'cos(2*(x + pi/4)) = 1 - 2*sin(x + pi/4)^2'",
+            "identity = 'cos(2*(2*x + 17*pi/4)) = 1 - 2*sin(2*x + 17*pi/4)^2'",
+            "identity = 'sin(3*(x - pi/6)) = 3*sin(x - pi/6) - 4*sin(x - pi/6)^3'",
+            "identity = 'cos(2*x*pi) = 1 - 2*sin(x*pi)^2 + sin(7*pi/12)*sin(pi/12) - 1/4'",
+            "identity = 'sin(x*pi)^2 + cos(x*pi)^2 = 2*cos(pi/3)'",
+            "identity = 'sin(2*pi*x + pi/6) = sin(2*pi*x)*sqrt(3)/2 + cos(2*pi*x)/2'",
+            "identity = 'sin(pi*(2*x + 1/3)) = sin(2*pi*x)/2 + cos(2*pi*x)*sqrt(3)/2'",
+        ],
+    );
+    assert_eq!(whole, vec![Verdict::Proved; 7]);
     let wrong = verdicts(
         FIELD,
         &[

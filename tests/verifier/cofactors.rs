@@ -289,3 +289,26 @@ fn a_cofactor_may_divide_by_what_the_field_divides_by() {
     assert_ne!(verdict("1", "1/x"), Verdict::Proved, "the motion leaves x = 0");
     assert_ne!(verdict("sin(z)*x/sin(z) + 0/z + 1 - 1*x", "1/x - 1 + 1"), Verdict::Proved);
 }
+
+#[test]
+fn a_cofactor_without_a_value_at_the_zeros_says_nothing_of_them() {
+    let judged = |cofactor: &str| {
+        let text = format!(
+            "title = 't'\n[state]\nx = '-2..2'\n[field]\n\
+             x = 'x*(x^2 - 1) + |x^2 - 1| - (x^2 - 1)'\n[[claim]]\ninvariant-relation = 'x'\n\
+             cofactor = '{cofactor}'\n"
+        );
+        let case = Case::parse(&text, &[]).expect("a case");
+        judge(&case, &Options::default()).expect("judged").claims[0].verdict
+    };
+    // At x = 0 the field is 2.
+    for cofactor in ["√(x^2 - 1)*√(x^2 - 1)", "√(x^2 - 1)^2", "x^2 - 1 + 0*√(x^2 - 1)"] {
+        assert_eq!(judged(cofactor), Verdict::Undecided, "{cofactor}");
+    }
+    assert_eq!(judged("x^2 - 1"), Verdict::Refuted);
+    let text = "title = 't'\n[state]\nx = '-2..2'\n[field]\nx = 'x*√(x^2 + 1)'\n[[claim]]\n\
+                invariant-relation = 'x'\ncofactor = '√(2*x^2 + 1 - x^2)'\n";
+    let case = Case::parse(text, &[]).expect("a case");
+    let found = judge(&case, &Options::default()).expect("judged").claims[0].verdict;
+    assert_eq!(found, Verdict::Proved, "the radicand is 1 where x = 0");
+}

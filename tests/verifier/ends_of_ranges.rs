@@ -49,3 +49,24 @@ fn ends_belong_to_ranges() {
         }
     }
 }
+
+#[test]
+fn sines_keep_their_signs_up_to_multiples_of_pi() {
+    let judged = |ends: [&str; 3]| {
+        let [y, x, t] = ends;
+        let text = format!(
+            "title = 't'\n[state]\ny = '{y}'\nx = '{x}'\nt1 = '{t}'\n[field]\n\"y'\" = '-sin(y)'\n\
+             \"x'\" = '0'\n\"t1'\" = '0'\n[[claim]]\nlyapunov = 'y^2/2'\n\
+             [[claim]]\nidentity = 'atan(tan(x)) = x'\n\
+             [[claim]]\nidentity = 'sqrt(1 - sin(x)^2) = cos(x)'\n\
+             [[claim]]\nidentity = 'sqrt(1 - cos(t1)^2) = sin(t1)'\n\
+             [[claim]]\nidentity = 'asin(sin(x)) = x'\n[[claim]]\nidentity = 'acos(cos(t1)) = t1'\n"
+        );
+        let case = Case::parse(&text, &[]).unwrap_or_else(|error| panic!("{error}\n{text}"));
+        let found = judge(&case, &Options::default()).expect("judged").claims;
+        found.into_iter().map(|own| own.verdict).collect::<Vec<_>>()
+    };
+    assert_eq!(judged(["-pi..pi", "-pi/2..pi/2", "0..pi"]), [Verdict::Proved; 6]);
+    let beyond = judged(["-3.3..3.3", "-1.7..1.7", "0..3.3"]);
+    assert_eq!(beyond, [Verdict::Refuted; 6]);
+}

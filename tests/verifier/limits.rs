@@ -183,3 +183,17 @@ fn quotients_of_exponentials_tend_to_what_the_largest_say() {
     }
     assert!(counts.iter().all(|count| *count > 4), "{counts:?}");
 }
+
+#[test]
+fn limits_do_not_depend_on_antiderivatives_beside_them() {
+    let limit = "[[claim]]\nlimit = 'sin(eps*x)/eps'\nequals = 'x'\nparameter = 'eps'\n";
+    let other = "[[claim]]\nidentity = '∫(exp(x),x) = ∫(exp(x),x)'\n";
+    for claims in [format!("{other}{limit}"), format!("{limit}{other}")] {
+        let text = format!(
+            "title = 't'\n[parameters]\neps = '0..1'\n[state]\nx = '-1..1'\n[field]\nx = '0'\n{claims}"
+        );
+        let case = Case::parse(&text, &[]).unwrap_or_else(|error| panic!("{error}\n{text}"));
+        let found = judge(&case, &Options::default()).expect("judged").claims;
+        assert!(found.iter().all(|own| own.verdict == Verdict::Proved), "{found:?}");
+    }
+}

@@ -233,3 +233,66 @@ fn masses_are_asked_at_wider_places_too() {
     assert_eq!(found.claims[0].verdict, Verdict::Proved);
     assert!(!found.claims[0].evidence.holds.contains(&"everywhere".to_string()));
 }
+
+#[test]
+fn minors_that_vanish_on_an_open_set_hide_no_states() {
+    use Verdict::{Proved, Refuted, Undecided};
+    // For k < 0 the masses are [[0, 1], [1, 400]], and y'' = −1.
+    let rate = ["rate = \"y'\"\nequals = '1/(800*k - 1)'"];
+    let names = ["x", "y", "z", "x'", "y'", "z'"];
+    for (mass, parameters) in [
+        ("exp(ln(k^2)/2) + k", "k = '-0.001..1'"),
+        ("2*k + k*(atan(k) + atan(1/k) - pi/2)/(pi/2)", "k = '-0.001..1'"),
+    ] {
+        let own = format!(
+            "kinetic = \"({mass})*x'^2/2 + x'*y' + 200*y'^2 + z'^2/2\"\npotential = \"x + |z|\""
+        );
+        let found = verdicts(parameters, &names, &own, &rate).expect("equations of motion");
+        assert!(found != [Proved], "{mass}: {found:?}");
+        let regular = verdicts("k = '1/2..1'", &names, &own, &rate);
+        assert_eq!(regular, Some(vec![Proved]), "{mass}");
+    }
+    // Seven velocities are eliminated.
+    let more = |mass: &str| {
+        format!(
+            "title = 'x'\n[parameters]\nk = '-0.001..1'\n[state]\nx = '-1..1'\ny = '-1..1'\n\
+             z = 'vector(5, -1..1)'\n\"x'\" = '-1..1'\n\"y'\" = '-1..1'\n\"z'\" = 'vector(5, -1..1)'\n\
+             [lagrangian]\nkinetic = \"({mass})*x'^2/2 + x'*y' + 200*y'^2 + (z',z')/2\"\n\
+             potential = 'x'\n[[claim]]\nrate = \"y'\"\nequals = '1/(400*({mass}) - 1)'\n"
+        )
+    };
+    let judged = |mass: &str| {
+        let case = Case::parse(&more(mass), &[]).expect("a case");
+        judge(&case, &Options::default()).expect("equations of motion").claims[0].verdict
+    };
+    assert_eq!(judged("|k| + k + 1"), Proved);
+    let wrong =
+        more("|k| + k").replace("equals = '1/(400*(|k| + k) - 1)'", "equals = '1/(800*k - 1)'");
+    let case = Case::parse(&wrong, &[]).expect("a case");
+    let found = judge(&case, &Options::default()).expect("equations of motion").claims[0].verdict;
+    assert!([Undecided, Refuted].contains(&found), "it is −1 for k < 0: {found:?}");
+}
+
+#[test]
+fn coordinates_without_mass_are_moved_by_many_constraints() {
+    use Verdict::{Proved, Refuted};
+    // A robot on two wheels with a castor: six velocities and four constraints.
+    let text = |claims: &str| {
+        let ranges = ["x", "y", "a", "p", "q", "b", "x'", "y'", "a'", "p'", "q'", "b'"];
+        let state: String = ranges.iter().map(|name| format!("\"{name}\" = '-1..1'\n")).collect();
+        format!(
+            "title = 'x'\nsystem = 'nonholonomic'\n[parameters]\nm = '1..2'\nJ = '0.5..1'\n\
+             R = '0.2..0.5'\nw = '0.3..0.5'\nd = '0.2..0.4'\n[state]\n{state}[let]\n\
+             u = \"x'*cos(a) + y'*sin(a)\"\n[lagrangian]\n\
+             kinetic = \"m*(x'^2 + y'^2)/2 + J*a'^2/2\"\n\
+             constraints = [\"x'*sin(a) - y'*cos(a) = 0\", \"R*p' = u + w*a'\", \"R*q' = u - w*a'\",\n\
+             \"d*(a' + b') = -u*sin(b) - a'*cos(b)\"]\n{claims}"
+        )
+    };
+    let claims = "[[claim]]\nintegral = 'energy'\n[[claim]]\nidentity = \"a'' = 0\"\n\
+                  [[claim]]\nrate = 'u'\nequals = '0'\n[[claim]]\nrate = \"b'\"\nequals = '0'\n";
+    let case = Case::parse(&text(claims), &[]).expect("a case");
+    let found = judge(&case, &Options::default()).expect("equations of motion").claims;
+    let verdicts: Vec<Verdict> = found.into_iter().map(|own| own.verdict).collect();
+    assert_eq!(verdicts, [Proved, Proved, Proved, Refuted]);
+}

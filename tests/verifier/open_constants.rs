@@ -54,3 +54,25 @@ fn states_without_a_value_refute_nothing_of_an_open_constant() {
     assert_eq!(verdict(plane, &claim("0*log(y)")), Verdict::Undecided);
     assert_eq!(verdict(plane, &claim("0*x")), Verdict::Refuted, "|y| is not y for y < 0");
 }
+
+#[test]
+fn an_integrand_that_may_depend_on_more_proves_nothing_of_motions() {
+    // The divergence is not 0 for y > 0.9999.
+    let state = "[state]\nx = '0..1'\ny = '0..1'\n[field]\nx = '1'\n\
+                 y = '∫(exp(x*(y - 9999/10000 + |y - 9999/10000|)), x)'";
+    assert_eq!(verdict(state, "density = '1'"), Verdict::Undecided);
+    assert_eq!(verdict(state, "identity = '(x + y)^2 = x^2 + 2*x*y + y^2'"), Verdict::Proved);
+    let state = "[state]\nx = '0..1'\ny = '0..1'\n\"x'\" = '-1..1'\n\"y'\" = '-1..1'\n[lagrangian]\n\
+                 kinetic = \"(x'^2 + y'^2)/2\"\n\
+                 potential = '∫(exp(x*(y - 9999/10000 + |y - 9999/10000|)), x)'";
+    for claim in ["identity = \"y'' = 0\"", "rate = \"y'\"\nequals = '0'"] {
+        assert_eq!(verdict(state, claim), Verdict::Undecided, "{claim}");
+    }
+    // |M| = M is not known of Motzkin's polynomial: that is no mistake of the file.
+    let state = "[state]\nx = '-2..2'\ny = '-2..2'\n[let]\n\
+                 M = 'x^4*y^2 + x^2*y^4 - 3*x^2*y^2 + 1'\n[field]\nx = '1'\n\
+                 y = '∫(x + |M| - M, x)'";
+    assert_eq!(verdict(state, "density = '1'"), Verdict::Undecided);
+    let state = "[state]\nx = '0..1'\ny = '0..1'\n[field]\nx = '1'\ny = '∫(x*exp(x), x)'";
+    assert_eq!(verdict(state, "density = '1'"), Verdict::Proved);
+}

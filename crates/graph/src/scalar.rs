@@ -177,6 +177,11 @@ impl<T: Scalar> Scalar for Dual<T> {
 
     fn power_of(self, exponent: Self) -> Self {
         let value = self.re.power_of(exponent.re);
+        // With a number for y there is a slope where x has no logarithm.
+        if exponent.is_number() && !self.eps.is_absent() {
+            let one_less = self.re.power_of(exponent.re - T::one());
+            return Dual::new(value, exponent.re * one_less * self.eps);
+        }
         let slope = match (self.eps.is_absent(), exponent.eps.is_absent()) {
             (true, true) => return Dual::new(value, self.eps),
             (true, false) => exponent.eps * self.re.ln(),
@@ -225,6 +230,10 @@ impl<T: Scalar> Scalar for Dual<T> {
 
     fn is_absent(&self) -> bool {
         self.re.is_absent() && self.eps.is_absent()
+    }
+
+    fn is_number(&self) -> bool {
+        self.re.is_number() && self.eps.is_absent()
     }
 }
 

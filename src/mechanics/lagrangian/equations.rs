@@ -5,7 +5,7 @@ use num_dual::Dual;
 use super::{Algebra, Lagrangian, LagrangianTerms, VariableRole};
 use crate::formula::Formula;
 use crate::mechanics::calculus::MANY;
-use crate::mechanics::elimination::{dot, solve_by_cramer, solve_by_minors, solve_positive};
+use crate::mechanics::elimination::{dot, solve_by_cramer, solve_positive};
 use crate::mechanics::{Configuration, Phase, Variable};
 use crate::scalar::Scalar;
 
@@ -35,11 +35,11 @@ pub struct EquationTerms<T> {
 type Solver<'s, T> = dyn Fn(&[Vec<T>], Vec<Vec<T>>) -> Vec<Vec<T>> + 's;
 
 /// Largest number of velocities and constraints of which determinants are written out.
-const MOST_ROWS: usize = 8;
+pub const MOST_ROWS: usize = 8;
 
 impl<T: Scalar> LagrangianEquations<T> {
     /// Whether there are few velocities and constraints.
-    fn is_small(&self) -> bool {
+    pub(super) fn is_small(&self) -> bool {
         self.terms.mass.len() + self.terms.slopes.len() <= MOST_ROWS
     }
 
@@ -55,11 +55,21 @@ impl<T: Scalar> LagrangianEquations<T> {
         upper.chain(lower).collect()
     }
 
-    /// Solves the equations by minors, without pivots.
-    pub(super) fn by_minors(self) -> LagrangianTerms<T> {
-        if !self.is_small() {
-            return self.solved_by(&|matrix, sides| solve_by_minors(matrix, &sides));
+    /// Returns equations with the same solution and the masses M + aᵀa, which may be regular where M is not. With
+    /// a w' = −carried the right sides get −aᵀ carried.
+    pub(super) fn with_slopes(mut self) -> Self {
+        let EquationTerms { mass, drive, slopes } = &mut self.terms;
+        for (slope, carried) in slopes.iter().zip(&self.carried) {
+            for (i, row) in mass.iter_mut().enumerate() {
+                row.iter_mut().zip(slope).for_each(|(own, a)| *own += slope[i] * *a);
+                drive[i] -= slope[i] * *carried;
+            }
         }
+        self
+    }
+
+    /// Solves the equations by their determinant, without pivots.
+    pub(super) fn by_determinant(self) -> LagrangianTerms<T> {
         let opposite = self.carried.iter().map(|own| -*own);
         let side: Vec<T> = self.terms.drive.iter().copied().chain(opposite).collect();
         let mut acceleration = solve_by_cramer(&self.bordered(), &side);

@@ -1,18 +1,19 @@
 //! Solution of the equations of motion for the accelerations, by elimination or by minors of the masses ∂²L/∂w².
 //!
-//! Elimination divides by leading minors, of the masses and of the matrix a M⁻¹ aᵀ of the reactions. Where they are 0 on no open set, it has a value at almost every state at
-//! which the determinant is not 0; and at all of them where the matrix is definite, as its determinant then vanishes
-//! with a leading minor. Others need minors, as [[0, 1], [1, 0]].
+//! Elimination divides by leading minors, of the masses and of the matrix a M⁻¹ aᵀ of the reactions. Where they are
+//! 0 on no open set, it has a value at almost every state at which the determinant is not 0; and at all of them where
+//! the matrix is definite, as its determinant then vanishes with a leading minor. Others need minors, as
+//! [[0, 1], [1, 0]].
 
 use super::Lagrangian;
 use crate::graph::{Evaluator, Expr, Fault, Graph, Step, Tape, divisors_of, record};
 use crate::mechanics::dynamics::Dynamics;
 use crate::mechanics::elimination::{is_indefinite, solve_by_minors, solve_positive};
 use crate::mechanics::{Chart, Configuration, Draw, DrawSource, Model, Phase, combinations};
-use crate::number::UnaryFunction;
 use crate::number::ball::{Ball, Balls};
 use crate::number::float::Float;
 use crate::number::rational::Rational;
+use crate::number::{BinaryOperation, UnaryFunction};
 use crate::proof::{Extent, InputDistribution, Prover, is_nowhere_zero};
 use crate::scalar::Scalar;
 
@@ -20,78 +21,125 @@ use crate::scalar::Scalar;
 const STATES: usize = 16;
 /// Largest number of velocities of which the signs are looked at.
 const MOST_VELOCITIES: usize = 32;
-/// Largest number of velocities and constraints that are solved for by minors because nothing is known of a pivot: more
-/// lose digits.
+/// Largest number of velocities and constraints that are solved for by minors because nothing is known of a divisor:
+/// more lose digits.
 const MOST_BY_MINORS: usize = 6;
 /// Seed of the proofs that leading minors are not 0.
 const SEED: u64 = 1;
+
+/// Method by which the equations of motion are solved for the accelerations.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct AccelerationSolver {
+    /// Whether minors are used, which divide by determinants alone, rather than elimination.
+    pub by_minors: bool,
+    /// Whether M + aᵀa stands for M.
+    pub with_slopes: bool,
+    /// Whether what elimination divides by is known to be 0 on no open set of states at which the equations of motion
+    /// have one solution.
+    pub is_known: bool,
+}
+
+impl AccelerationSolver {
+    /// Elimination of the masses alone.
+    pub const ELIMINATION: Self = Self { by_minors: false, with_slopes: false, is_known: true };
+    const MINORS: Self = Self { by_minors: true, ..Self::ELIMINATION };
+}
 
 /// Masses of a Lagrangian as functions of the draws, with all that elimination divides by.
 struct DrawnMasses {
     graph: Graph,
     masses: Vec<Expr>,
-    pivots: Vec<Expr>,
+    divisors: Vec<Expr>,
 }
 
 impl Lagrangian {
-    /// Whether the equations of motion are to be solved by minors: what elimination divides by is not known to be 0 on
-    /// no open set of states, on the level and in all of space, or the matrix has eigenvalues of both signs at some of the first drawn states, with one choice of
-    /// listed values or another. `false` where there are no velocities.
-    pub fn needs_minors(&self, model: &Model, chart: &Chart, free: &[Draw]) -> bool {
+    /// Chooses how the equations of motion are solved. Minors are taken where the matrix has eigenvalues of both signs
+    /// at some of the first drawn states, with one choice of listed values or another; and for few velocities where
+    /// what elimination divides by is not known to be 0 on no open set of states, on the level and in all of space.
+    /// Many velocities are then eliminated with M + aᵀa in the place of M, as is the mass of a coordinate that the
+    /// constraints alone move.
+    pub fn acceleration_solver(
+        &self,
+        model: &Model,
+        chart: &Chart,
+        free: &[Draw],
+    ) -> AccelerationSolver {
         let velocities = self.velocities(&model.state);
-        if velocities.is_empty() || velocities.len() > MOST_VELOCITIES {
-            return false;
+        if velocities.is_empty() {
+            return AccelerationSolver::ELIMINATION;
         }
-        let are_few = velocities.len() + self.constraints.len() <= MOST_BY_MINORS;
         let level = vec![true; model.level.len()];
         let mut places = vec![level.clone()];
         if !level.is_empty() {
             places.push(vec![false; level.len()]);
         }
-        for kept in &places {
-            let place = (model, chart, &kept[..]);
-            let draws = [model.parameter_draws(), chart.draws(free, kept)].concat();
-            let Some(choices) = combinations(&draws) else { return true };
-            // Nothing has a value for a mass without one.
-            let drawn =
-                |choice: &Vec<Option<Rational>>| self.drawn_masses(place, &velocities, choice).ok();
-            let is_regular = |choice: &Vec<Option<Rational>>| {
-                drawn(choice).is_none_or(|own| own.has_pivots(&draws).unwrap_or(false))
-            };
-            if are_few && !choices.iter().all(is_regular) {
-                return true;
-            }
-            if *kept == level {
-                let any = vec![None; draws.len()];
-                let own = drawn(if let [only] = &choices[..] { only } else { &any });
-                let Some(own) = own else { return false };
-                if own.is_indefinite_somewhere(velocities.len(), &draws, &choices) {
-                    return true;
-                }
-            }
+        let is_regular = |own: &Self| {
+            places.iter().all(|kept| own.is_regular_at((model, chart, kept), free, &velocities))
+        };
+        let is_known = is_regular(self);
+        let are_few = velocities.len() + self.constraints.len() <= MOST_BY_MINORS;
+        if are_few && !is_known || self.is_indefinite(model, chart, free, &velocities) {
+            return AccelerationSolver::MINORS;
         }
-        false
+        if is_known || self.constraints.is_empty() {
+            return AccelerationSolver { is_known, ..AccelerationSolver::ELIMINATION };
+        }
+        let solver = AccelerationSolver { with_slopes: true, ..AccelerationSolver::ELIMINATION };
+        let is_known = is_regular(&Self { solver, ..self.clone() });
+        AccelerationSolver { is_known, ..solver }
     }
 
-    fn drawn_masses(
+    /// Whether all divisors are known to be 0 on no open set of states of a place, for each choice of listed values.
+    fn is_regular_at(
         &self,
         (model, chart, kept): (&Model, &Chart, &[bool]),
+        free: &[Draw],
         velocities: &[usize],
-        choice: &[Option<Rational>],
-    ) -> Result<DrawnMasses, Fault> {
-        let (graph, (masses, pivots)) = record(choice.len(), |inputs| {
-            let fixed = inputs.iter().zip(choice);
-            let inputs: Vec<Expr> =
-                fixed.map(|(own, value)| value.as_ref().map_or(*own, Expr::rational)).collect();
-            let (parameters, state) = model.make_parameters(&inputs);
-            let state = chart.point(model, kept, &parameters, state);
-            let phase = Phase::new(model, &parameters, &state);
-            let pivots = divisors_of(|| {
+    ) -> bool {
+        let draws = [model.parameter_draws(), chart.draws(free, kept)].concat();
+        let Some(choices) = combinations(&draws) else { return false };
+        let Ok(own) = self.symbolic_masses(model, velocities) else { return false };
+        choices.iter().all(|choice| {
+            let drawn = own.drawn((model, chart, kept), choice);
+            drawn.and_then(|drawn| drawn.has_divisors(&draws)).unwrap_or(false)
+        })
+    }
+
+    /// Whether f64 shows masses of both signs at one of the first states.
+    fn is_indefinite(
+        &self,
+        model: &Model,
+        chart: &Chart,
+        free: &[Draw],
+        velocities: &[usize],
+    ) -> bool {
+        if velocities.len() > MOST_VELOCITIES {
+            return false;
+        }
+        let kept = vec![true; model.level.len()];
+        let draws = [model.parameter_draws(), chart.draws(free, &kept)].concat();
+        let any = vec![None; draws.len()];
+        let drawn = self
+            .symbolic_masses(model, velocities)
+            .and_then(|own| own.drawn((model, chart, &kept), &any));
+        let Ok(drawn) = drawn else { return false };
+        let choices = combinations(&draws).unwrap_or_else(|| vec![any]);
+        drawn.is_indefinite_somewhere(velocities.len(), &draws, &choices)
+    }
+
+    /// Records masses and divisors in the symbols of parameters and state, as the equations of motion are: a mass that
+    /// is 0 for a listed value, or on the level, is eliminated nevertheless.
+    fn symbolic_masses(&self, model: &Model, velocities: &[usize]) -> Result<DrawnMasses, Fault> {
+        let free = model.free_components();
+        let (graph, (masses, divisors)) = record(free + model.dimension(), |inputs| {
+            let (parameters, state) = inputs.split_at(free);
+            let phase = Phase::new(model, parameters, state);
+            let divisors = divisors_of(|| {
                 self.field(&phase);
             });
-            (self.masses(&phase.configuration, velocities).concat(), pivots)
+            (self.masses(&phase.configuration, velocities).concat(), divisors)
         })?;
-        Ok(DrawnMasses { graph, masses, pivots })
+        Ok(DrawnMasses { graph, masses, divisors })
     }
 
     fn masses(&self, at: &Configuration<'_, Expr>, velocities: &[usize]) -> Vec<Vec<Expr>> {
@@ -115,7 +163,7 @@ impl Lagrangian {
     pub(super) fn may_be_eliminated<T: Scalar>(&self, mass: &[Vec<T>]) -> bool {
         let is_present =
             |(i, row): (usize, &Vec<T>)| row.get(i).is_some_and(|own| !own.is_absent());
-        !self.needs_minors && mass.iter().enumerate().all(is_present)
+        !self.solver.by_minors && mass.iter().enumerate().all(is_present)
     }
 }
 
@@ -125,30 +173,39 @@ pub(super) fn eliminated<T: Scalar>(matrix: &[Vec<T>], sides: Vec<Vec<T>>) -> Ve
 }
 
 impl DrawnMasses {
-    /// Whether each divisor is seen to be 0 on no open set of states: in a ball at one of them, where it is one analytic
-    /// function, or by a proof on each cell of signs of its moduli and roots.
-    fn has_pivots(&self, draws: &[Draw]) -> Result<bool, Fault> {
+    /// Writes them as functions of the draws of a place, with a choice of listed values inserted; values of arbitrary
+    /// functions are further inputs.
+    fn drawn(
+        &self,
+        (model, chart, kept): (&Model, &Chart, &[bool]),
+        choice: &[Option<Rational>],
+    ) -> Result<Self, Fault> {
+        let all = [&self.masses[..], &self.divisors].concat();
+        let reached = self.graph.reached(all.iter().copied());
+        let symbols = model.free_components() + model.dimension();
+        let further = self.graph.inputs() - symbols;
+        let (graph, made) = record(choice.len() + further, |inputs| {
+            let (draws, further) = inputs.split_at(choice.len());
+            let fixed = draws.iter().zip(choice);
+            let draws: Vec<Expr> =
+                fixed.map(|(own, value)| value.as_ref().map_or(*own, Expr::rational)).collect();
+            let (parameters, state) = model.make_parameters(&draws);
+            let state = chart.point(model, kept, &parameters, state);
+            let inputs = [&parameters[..], &state, further].concat();
+            let values = self.graph.repeated(&reached, &inputs);
+            all.iter().map(|own| values[self.graph.place(*own)]).collect::<Option<Vec<Expr>>>()
+        })?;
+        let mut masses = made.ok_or(Fault::ForeignValue)?;
+        let divisors = masses.split_off(self.masses.len());
+        Ok(Self { graph, masses, divisors })
+    }
+
+    /// Whether each divisor is known to be 0 on no open set of states: by a ball at one of them, where it is one
+    /// analytic function, or by a proof on each cell of signs of its moduli and roots.
+    fn has_divisors(&self, draws: &[Draw]) -> Result<bool, Fault> {
         let extents: Vec<Extent> = draws.iter().map(Draw::extent).collect();
-        // √l with l in 1..2 is analytic.
-        let may_vanish =
-            |place: usize| !is_nowhere_zero(&self.graph, &extents, &[], &[self.graph.at(place)]);
-        let has_kinks = self.graph.has_step(&self.pivots, |step| match step {
-            Step::Unary(UnaryFunction::Abs | UnaryFunction::Sqrt, a) => may_vanish(a),
-            Step::Power(a, exponent) => exponent.to_integer().is_none() && may_vanish(a),
-            _ => false,
-        });
-        if !has_kinks {
-            let tape = Tape::new(&self.graph, &self.pivots);
-            let mut evaluator = Evaluator::new(&tape, Ball::<STATES>);
-            let numbers = drawn_numbers(draws, self.graph.inputs());
-            let exact = |x: &[f64; STATES]| Balls::new(*x, [0.0; STATES]);
-            evaluator.run(&numbers.iter().map(exact).collect::<Vec<_>>());
-            // Where nothing has a value nothing is known.
-            let is_seen = |value: &Balls<STATES>| {
-                let known = || (0..STATES).filter(|lane| value.is_defined(*lane));
-                known().next().is_none() || known().any(|lane| value.excludes_zero(lane))
-            };
-            return Ok(evaluator.outputs().all(is_seen));
+        if self.is_analytic(draws, &extents) && self.are_seen(draws) {
+            return Ok(true);
         }
         let source = |draw: &Draw| match draw {
             Draw::Sign => InputDistribution::Sign,
@@ -156,16 +213,78 @@ impl DrawnMasses {
         };
         let sources: Vec<InputDistribution> = draws.iter().map(source).collect();
         let prover = Prover { sources: &sources, extents: &extents, seed: SEED };
-        for pivot in &self.pivots {
-            let is_known = match self.graph.constant_value(*pivot) {
+        for divisor in &self.divisors {
+            let is_known = match self.graph.constant_value(*divisor) {
                 Some(value) => !value.is_zero(),
-                None => prover.is_nonzero_on_all_cells(&self.graph, *pivot)?,
+                None => prover.is_nonzero_on_all_cells(&self.graph, *divisor)?,
             };
             if !is_known {
                 return Ok(false);
             }
         }
         Ok(true)
+    }
+
+    /// Whether balls exclude 0 from each divisor at one of the first states.
+    fn are_seen(&self, draws: &[Draw]) -> bool {
+        let tape = Tape::new(&self.graph, &self.divisors);
+        let mut evaluator = Evaluator::new(&tape, Ball::<STATES>);
+        let numbers = drawn_numbers(draws, self.graph.inputs());
+        let exact = |x: &[f64; STATES]| Balls::new(*x, [0.0; STATES]);
+        evaluator.run(&numbers.iter().map(exact).collect::<Vec<_>>());
+        let is_seen = |value: &Balls<STATES>| {
+            (0..STATES).any(|lane| value.is_defined(lane) && value.excludes_zero(lane))
+        };
+        evaluator.outputs().all(is_seen)
+    }
+
+    /// Whether each divisor is one analytic function on the box of the draws, but for poles.
+    ///
+    /// What is under a root, a modulus or a logarithm has no pole and no zero on the box, and what is in an arctangent
+    /// no pole. These are then analytic around the box in complex space, on a connected set, and the rest is analytic
+    /// there without the zeros of divisors, which do not divide it: a function that is not 0 at one state is 0 on no
+    /// open set. (Not so: e^(½ ln k²) + k, which is 0 for k < 0.)
+    fn is_analytic(&self, draws: &[Draw], extents: &[Extent]) -> bool {
+        use UnaryFunction::{Abs, Atan, Ln, Recip, Sqrt};
+        let graph = &self.graph;
+        let reached = graph.reached(self.divisors.iter().copied());
+        let is_single_valued = |(place, step): (usize, Step<'_>)| match step {
+            Step::Input(input) => !reached[place] || !matches!(draws.get(input), Some(Draw::Sign)),
+            Step::Unary(Abs | Sqrt | Ln | Atan, _) | Step::Binary(BinaryOperation::Pow, ..) => {
+                !reached[place]
+            }
+            Step::Power(_, exponent) => !reached[place] || exponent.to_integer().is_some(),
+            _ => true,
+        };
+        if graph.steps().enumerate().all(is_single_valued) {
+            return true;
+        }
+        let is_nowhere_zero =
+            |place: usize| is_nowhere_zero(graph, extents, &[], &[graph.at(place)]);
+        let mut has_no_pole = vec![true; reached.len()];
+        for (place, step) in graph.steps().enumerate().filter(|(place, _)| reached[*place]) {
+            let of_arguments = step.arguments().all(|argument| has_no_pole[argument]);
+            let (is_analytic, has_value) = match step {
+                Step::Input(input) => (!matches!(draws.get(input), Some(Draw::Sign)), true),
+                Step::Unary(Recip, a) => (true, of_arguments && is_nowhere_zero(a)),
+                Step::Unary(Abs | Sqrt | Ln, a) | Step::Binary(BinaryOperation::Pow, a, _) => {
+                    (of_arguments && is_nowhere_zero(a), true)
+                }
+                Step::Power(a, exponent) if exponent.to_integer().is_none() => {
+                    (of_arguments && is_nowhere_zero(a), true)
+                }
+                Step::Power(a, exponent) if *exponent < Rational::from(0) => {
+                    (true, of_arguments && is_nowhere_zero(a))
+                }
+                Step::Unary(Atan, _) => (of_arguments, true),
+                _ => (true, of_arguments),
+            };
+            if !is_analytic {
+                return false;
+            }
+            has_no_pole[place] = has_value;
+        }
+        true
     }
 
     /// Whether f64 shows eigenvalues of both signs at one of the first states, for one of some choices of listed

@@ -25,9 +25,16 @@ pub struct Angle {
     arctangents: Vec<(usize, i64)>,
     /// Places of the terms of R with their multiples.
     rest: Vec<(usize, Rational)>,
+    /// Places of factors of π/4 in the other terms of R, with their multiples.
+    turns: Vec<(usize, Rational)>,
     /// Number of twelfths of π.
     twelfths: i64,
+    /// Whether π occurs in it.
+    has_quarter: bool,
 }
+
+/// A part of a sum: a place, its multiple, and whether it is a factor of π/4.
+type Part = (usize, Rational, bool);
 
 /// Lists the sums with arctangents whose sines and cosines some values need.
 pub fn angles(graph: &Graph, values: &[Expr]) -> Vec<Rewrite> {
@@ -54,25 +61,49 @@ pub fn without_arctangents(graph: &Graph, values: &[Expr]) -> Result<(Graph, Vec
 /// Lists the arguments of sines and cosines that are sums to be written out. Twelfths of π are not, where π occurs in
 /// other parts, too: cos 2π/9 = 2 cos² π/9 − 1 is a relation between the sums as they are.
 fn taken_apart(graph: &Graph, values: &[Expr]) -> impl Iterator<Item = (usize, Angle)> {
-    let all: Vec<(usize, Option<Angle>)> = arguments(graph, values)
-        .into_iter()
-        .map(|argument| (argument, Angle::of(graph, argument)))
-        .collect();
-    let is_eighth = |step: Step<'_>| match step {
+    let arguments = arguments(graph, values);
+    let taken = |distributes: bool| -> Vec<(usize, Angle)> {
+        let all = arguments.iter().copied();
+        all.filter_map(|own| Some((own, Angle::of(graph, own, distributes)?))).collect()
+    };
+    let mut all = taken(true);
+    let has_others = all.iter().any(|(_, angle)| angle.has_other_part(graph));
+    if has_others {
+        all = taken(false);
+    }
+    let is_broken = !has_others
+        && all.iter().any(|(_, own)| own.has_broken_part() || !own.arctangents.is_empty());
+    // All are written alike then: 2(x + π/4) is 2x + π/2.
+    let is_asked = move |own: &Angle| !own.arctangents.is_empty() || is_broken && own.has_quarter;
+    all.into_iter().filter(move |(_, angle)| is_asked(angle))
+}
+
+/// Whether a step is atan 1 = π/4.
+fn is_one_eighth(graph: &Graph, step: Step<'_>) -> bool {
+    match step {
         Step::Unary(UnaryFunction::Atan, a) => {
             matches!(graph.step(a), Step::Constant(value) if value.is_one())
         }
         _ => false,
+    }
+}
+
+/// Returns the number by which a product of numbers and π/4 is a multiple of π/4.
+fn quarters(graph: &Graph, place: usize) -> Option<Rational> {
+    let number = |place: usize| match graph.step(place) {
+        Step::Constant(value) => Some(value),
+        _ => None,
     };
-    let has_others = all.iter().filter_map(|(_, angle)| angle.as_ref()).any(|angle| {
-        let rest: Vec<Expr> = angle.rest.iter().map(|(place, _)| graph.at(*place)).collect();
-        graph.has_step(&rest, is_eighth)
-    });
-    all.into_iter().filter_map(move |(argument, angle)| {
-        let angle = angle
-            .filter(|own| !own.arctangents.is_empty() || own.has_broken_part() && !has_others)?;
-        Some((argument, angle))
-    })
+    match graph.step(place) {
+        step if is_one_eighth(graph, step) => Some(Rational::from(1)),
+        Step::Unary(UnaryFunction::Neg, a) => Some(-&quarters(graph, a)?),
+        Step::Binary(BinaryOperation::Mul, a, b) => match (number(a), number(b)) {
+            (Some(own), None) => Some(own * &quarters(graph, b)?),
+            (None, Some(own)) => Some(own * &quarters(graph, a)?),
+            _ => None,
+        },
+        _ => None,
+    }
 }
 
 /// Lists the places of the arguments of sines and cosines that some values need.
@@ -90,50 +121,98 @@ pub fn arguments(graph: &Graph, values: &[Expr]) -> Vec<usize> {
 }
 
 impl Angle {
-    /// Takes a sum apart; `None` if it has too many terms.
-    fn of(graph: &Graph, place: usize) -> Option<Self> {
-        let mut found = Self { arctangents: Vec::new(), rest: Vec::new(), twelfths: 0 };
-        let mut open = vec![(place, Rational::from(1))];
-        while let Some((at, factor)) = open.pop() {
-            if found.arctangents.len() + found.rest.len() + open.len() > MOST_TERMS {
+    /// Takes a sum apart, also one that is multiplied by π; `None` if it has too many terms.
+    fn of(graph: &Graph, place: usize, distributes: bool) -> Option<Self> {
+        let mut found = Self {
+            arctangents: Vec::new(),
+            rest: Vec::new(),
+            turns: Vec::new(),
+            twelfths: 0,
+            has_quarter: false,
+        };
+        let mut open: Vec<Part> = vec![(place, Rational::from(1), false)];
+        while let Some(part) = open.pop() {
+            let terms = found.arctangents.len() + found.rest.len() + found.turns.len();
+            if terms + open.len() > MOST_TERMS {
                 return None;
             }
-            let number = |place: usize| match graph.step(place) {
-                Step::Constant(value) => Some(value),
-                _ => None,
-            };
-            match graph.step(at) {
-                Step::Binary(BinaryOperation::Add, a, b) => {
-                    open.extend([(b, factor.clone()), (a, factor)]);
-                }
-                Step::Binary(BinaryOperation::Sub, a, b) => {
-                    open.extend([(b, -&factor), (a, factor)]);
-                }
-                Step::Unary(UnaryFunction::Neg, a) => open.push((a, -&factor)),
-                Step::Binary(BinaryOperation::Mul, a, b) if number(a).is_some() => {
-                    open.push((b, &factor * number(a)?));
-                }
-                Step::Binary(BinaryOperation::Mul, a, b) if number(b).is_some() => {
-                    open.push((a, &factor * number(b)?));
-                }
-                // atan 1 = π/4, and a whole turn has 24 twelfths of π.
-                Step::Unary(UnaryFunction::Atan, a) if number(a).is_some_and(Rational::is_one) => {
-                    match (&factor * &Rational::from(3)).to_integer() {
-                        Some(twelfths) => found.twelfths = (found.twelfths + twelfths % 24) % 24,
-                        None => found.rest.push((at, factor)),
-                    }
-                }
-                Step::Unary(UnaryFunction::Atan, a) if number(a).is_none() => {
-                    let multiple = factor.to_integer().filter(|n| n.abs() <= LARGEST_MULTIPLE);
-                    match multiple {
-                        Some(multiple) => found.arctangents.push((a, multiple)),
-                        None => found.rest.push((at, factor)),
-                    }
-                }
-                _ => found.rest.push((at, factor)),
-            }
+            found.include(graph, part, &mut open, distributes);
         }
         Some(found)
+    }
+
+    /// Includes a part of a sum, or opens the parts of which it is made.
+    fn include(
+        &mut self,
+        graph: &Graph,
+        (at, factor, of_quarter): Part,
+        open: &mut Vec<Part>,
+        distributes: bool,
+    ) {
+        let number = |place: usize| match graph.step(place) {
+            Step::Constant(value) => Some(value),
+            _ => None,
+        };
+        self.has_quarter |= of_quarter;
+        match graph.step(at) {
+            Step::Binary(BinaryOperation::Add, a, b) => {
+                open.extend([(b, factor.clone(), of_quarter), (a, factor, of_quarter)]);
+                return;
+            }
+            Step::Binary(BinaryOperation::Sub, a, b) => {
+                open.extend([(b, -&factor, of_quarter), (a, factor, of_quarter)]);
+                return;
+            }
+            Step::Unary(UnaryFunction::Neg, a) => return open.push((a, -&factor, of_quarter)),
+            Step::Binary(BinaryOperation::Mul, a, b) => {
+                for (a, b) in [(a, b), (b, a)] {
+                    if let Some(own) = number(a) {
+                        return open.push((b, &factor * own, of_quarter));
+                    }
+                    if distributes
+                        && !of_quarter
+                        && let Some(own) = quarters(graph, a)
+                    {
+                        return open.push((b, &factor * &own, true));
+                    }
+                }
+            }
+            // A whole turn has 24 twelfths of π.
+            Step::Constant(value) if of_quarter => {
+                let twelfths = (&(&factor * value) * &Rational::from(3)).to_integer();
+                if let Some(twelfths) = twelfths {
+                    self.twelfths = (self.twelfths + twelfths % 24) % 24;
+                    return;
+                }
+            }
+            step if !of_quarter && is_one_eighth(graph, step) => {
+                self.has_quarter = true;
+                if let Some(twelfths) = (&factor * &Rational::from(3)).to_integer() {
+                    self.twelfths = (self.twelfths + twelfths % 24) % 24;
+                    return;
+                }
+            }
+            Step::Unary(UnaryFunction::Atan, a) if !of_quarter && number(a).is_none() => {
+                let multiple = factor.to_integer().filter(|n| n.abs() <= LARGEST_MULTIPLE);
+                if let Some(multiple) = multiple {
+                    return self.arctangents.push((a, multiple));
+                }
+            }
+            _ => {}
+        }
+        match of_quarter {
+            true => self.turns.push((at, factor)),
+            false => self.rest.push((at, factor)),
+        }
+    }
+
+    /// Whether π occurs in parts that are no twelfths of it.
+    fn has_other_part(&self, graph: &Graph) -> bool {
+        let is_number =
+            |(place, _): &(usize, Rational)| matches!(graph.step(*place), Step::Constant(_));
+        let rest = self.rest.iter().chain(&self.turns);
+        let rest: Vec<Expr> = rest.map(|(place, _)| graph.at(*place)).collect();
+        self.turns.iter().any(is_number) || graph.has_step(&rest, |step| is_one_eighth(graph, step))
     }
 
     /// Whether it contains a broken part of a quarter turn.
@@ -145,10 +224,14 @@ impl Angle {
     pub fn value(&self, sine: bool, values: &[Option<Expr>]) -> Option<Expr> {
         let one = Expr::rational(&Rational::from(1));
         let mut point = [one, Expr::rational(&Rational::from(0))];
-        if !self.rest.is_empty() {
+        if !self.rest.is_empty() || !self.turns.is_empty() {
             let mut angle = Expr::rational(&Rational::from(0));
             for (place, factor) in &self.rest {
                 angle += values[*place]? * Expr::rational(factor);
+            }
+            let quarter = one.apply(UnaryFunction::Atan);
+            for (place, factor) in &self.turns {
+                angle += values[*place]? * (quarter * Expr::rational(factor));
             }
             point = [angle.apply(UnaryFunction::Cos), angle.apply(UnaryFunction::Sin)];
         }

@@ -8,6 +8,8 @@
 //! tan(π/2 − u/2) = sin u/(1 − cos u)    tan(π/4 + u/2) = cos u/(1 − sin u)
 //! ```
 
+use std::f64::consts::FRAC_PI_2;
+
 use crate::graph::{Expr, Step};
 use crate::number::UnaryFunction::{Atan, Cos, Sin};
 use crate::number::rational::Rational;
@@ -66,6 +68,30 @@ impl PlainAngle {
     }
 }
 
+/// Returns a number of f64 not below this number of quarter turns, or not above it.
+fn quarter_turns(quarters: i64, is_above: bool) -> f64 {
+    let near = quarters as f64 * FRAC_PI_2;
+    match (quarters == 0, is_above == (quarters > 0)) {
+        (true, _) => 0.0,
+        // FRAC_PI_2 is below π/2, and the product is rounded to the nearest.
+        (_, true) => {
+            if quarters > 0 {
+                near.next_up().next_up()
+            } else {
+                near.next_down().next_down()
+            }
+        }
+        (_, false) if quarters.unsigned_abs().is_power_of_two() => near,
+        (_, false) => {
+            if quarters > 0 {
+                near.next_down()
+            } else {
+                near.next_up()
+            }
+        }
+    }
+}
+
 impl Explorer<'_> {
     /// Finds the arctangents of tangents that the values of a cell need.
     pub fn arctangents(
@@ -115,14 +141,20 @@ impl Explorer<'_> {
                 // (k − ½)π ≤ f u + e π/4 ≤ (k + ½)π, in quarter turns of u
                 let ends = [4 * k - 2, 4 * k + 2].map(|end| (end - form.eighths) / form.halves);
                 let [low, high] = [ends[0].min(ends[1]), ends[0].max(ends[1])];
-                let sign = |quarters: i64| {
-                    cell.sign_of(known, self.prover.extents, &[u], |values| {
-                        let turn =
-                            one().apply(Atan) * Expr::rational(&Rational::from(2 * quarters));
-                        Some(values[u]? - turn)
-                    })
+                let compared = |turn: &dyn Fn() -> Expr| {
+                    let difference = |values: &[Option<Expr>]| Some(values[u]? - turn());
+                    cell.sign_of(known, self.prover.extents, &[u], difference)
                 };
-                sign(low) == Some(true) && sign(high) == Some(false)
+                let is_beyond = |quarters: i64, is_above: bool| {
+                    let exact =
+                        || one().apply(Atan) * Expr::rational(&Rational::from(2 * quarters));
+                    // Ends of ranges are numbers of f64 inside of π/2.
+                    let stricter = Rational::from_f64(quarter_turns(quarters, is_above));
+                    compared(&exact) == Some(is_above)
+                        || stricter
+                            .is_some_and(|own| compared(&|| Expr::rational(&own)) == Some(is_above))
+                };
+                is_beyond(low, true) && is_beyond(high, false)
             })?;
             let eighths = sign * (form.eighths - 4 * turns);
             let angle = PlainAngle { place: u, halves: sign * form.halves, eighths };

@@ -85,11 +85,9 @@ struct Dependent {
 
 impl Graph {
     /// Copies the steps between a value and an input; `None` if it is no input, if there are too
-    /// many, or if there are antiderivatives, which may depend on the input unseen.
+    /// many, or if one of them is an antiderivative, which may depend on the input unseen.
     fn between(&self, value: NodeId, variable: NodeId) -> Option<Dependent> {
-        if !self.antiderivatives.is_empty()
-            || !matches!(self.nodes[variable.0 as usize], Node::Input(_))
-        {
+        if !matches!(self.nodes[variable.0 as usize], Node::Input(_)) {
             return None;
         }
         let reached = self.reached_from(&[value.0 as usize]);
@@ -99,6 +97,9 @@ impl Graph {
             let of = |a: NodeId| a.0 as usize;
             let (arguments, step) = match self.nodes[place] {
                 Node::Input(_) if place == of(variable) => (true, Copied::Variable),
+                Node::Input(index) if self.antiderivatives.values().any(|own| *own == index) => {
+                    return None;
+                }
                 Node::Constant(_) | Node::Input(_) => continue,
                 Node::Unary(function, a) => (depends[of(a)], Copied::Unary(function, of(a))),
                 Node::Binary(operation, a, b) => {

@@ -38,14 +38,14 @@ impl Extent {
             UnaryFunction::Sqrt => self.rising(0.0, None, f64::sqrt).within(true),
             UnaryFunction::Exp => self.rising(f64::NEG_INFINITY, Some(0.0), libm::exp).within(true),
             UnaryFunction::Ln => self.rising(0.0, Some(1.0), libm::log),
-            UnaryFunction::Sin => self.sine(),
-            UnaryFunction::Cos => self.plus(Self::outward(FRAC_PI_2, FRAC_PI_2)).sine(),
+            UnaryFunction::Sin => self.wave(libm::sin, 1.0),
+            UnaryFunction::Cos => self.wave(libm::cos, 0.0),
             UnaryFunction::Atan => self.rising(f64::NEG_INFINITY, Some(0.0), libm::atan),
         }
     }
 
-    /// Computes sin x.
-    fn sine(self) -> Self {
+    /// Computes sin x or cos x, which is 1 at this quarter of a turn.
+    fn wave(self, f: fn(f64) -> f64, crest: f64) -> Self {
         /// Largest argument that is reduced to one turn.
         const FAR: f64 = 1e6;
         /// More than the rounding of the turns of an argument below that.
@@ -58,21 +58,19 @@ impl Extent {
             return Self::SIGN;
         }
         let at = |x: f64| match x == 0.0 {
-            true => Self::ZERO,
-            false => Self::twice_outward(libm::sin(x), libm::sin(x)),
+            true => Self { low: f(x), high: f(x) },
+            false => Self::twice_outward(f(x), f(x)),
         };
         let (start, end) = (at(low), at(high));
         let mut found = Self { low: start.low.min(end.low), high: start.high.max(end.high) };
-        // Whether an odd quarter of a turn lies inside: 1 of 4 for the crest, 3 of 4 for the
-        // trough.
         let passes = |quarter: f64| {
             let turns = |x: f64| (x - quarter * FRAC_PI_2) / TAU;
             turns(low - SLACK).ceil() <= turns(high + SLACK).floor()
         };
-        if passes(1.0) {
+        if passes(crest) {
             found.high = 1.0;
         }
-        if passes(3.0) {
+        if passes(crest + 2.0) {
             found.low = -1.0;
         }
         found.common(Self::SIGN)

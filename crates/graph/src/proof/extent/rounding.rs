@@ -32,7 +32,7 @@ pub fn product(a: f64, b: f64) -> (f64, f64) {
 /// and not 0, and the error does not underflow.
 #[inline(always)]
 pub fn has_exact_error(product: f64) -> bool {
-    product.is_finite() && product.abs() > f64::MIN_POSITIVE / f64::EPSILON
+    product.is_finite() && product.abs() > 2.0 * f64::MIN_POSITIVE / f64::EPSILON
 }
 
 /// Returns the largest f64 known not to exceed the exact value.
