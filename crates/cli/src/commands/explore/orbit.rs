@@ -122,7 +122,7 @@ fn answer(options: &OrbitArgs) -> Result<(String, bool), String> {
         return iterates::run(options, &case);
     }
     if options.iterates.is_some() {
-        return Err("error: --iterates: the case has motions in time, and is no map\n\
+        return Err("error: --iterates: this case is not a map\n\
                     help: give a time: --time 100"
             .to_string());
     }

@@ -141,7 +141,7 @@ fn known(path: &Path, identity: &Identity, part: Part, form: &Form) -> Result<Kn
         }
         Err(error) => match error.kind() {
             ErrorKind::NotFound => Ok(Known::Missing),
-            ErrorKind::InvalidData => Ok(Known::Other("it is no text".to_string())),
+            ErrorKind::InvalidData => Ok(Known::Other("it is not a text file".to_string())),
             _ => {
                 let shown = path.display();
                 Err(format!("error: cannot read {shown}: {error}\nhelp: remove it"))
