@@ -38,7 +38,7 @@ const MOST_ITERATES: f64 = 1e10;
 pub struct OrbitArgs {
     #[command(flatten)]
     pub subject: MotionArgs,
-    /// Time to follow the motion, 100 by default; negative: backwards
+    /// Time of the motion, 100 by default; negative: backwards
     #[arg(long, allow_hyphen_values = true, value_parser = parse_number)]
     pub time: Option<Rational>,
     /// Number of iterates of a map, 1000 by default

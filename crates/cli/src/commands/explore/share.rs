@@ -15,10 +15,10 @@ use crate::parts::{Form, Identity, Job, check, save};
 #[derive(Clone, Debug, Default, Args)]
 pub struct Share {
     /// Compute part I of N alone, and write it to the folder --out as a file that `liouville merge`
-    /// reads. A part that is there already is kept
+    /// reads. An existing part is kept
     #[arg(long, value_name = "I/N", requires = "out")]
     pub part: Option<Part>,
-    /// Compute a part again that is there already
+    /// Compute the part even if it exists
     #[arg(long, requires = "part")]
     pub force: bool,
     /// Arguments of the command, without those that differ from part to part.

@@ -1,4 +1,4 @@
-//! What commands say of inputs that textbooks suggest: values to give back, starts, levels of energy.
+//! Messages about inputs that textbooks suggest: values to give back, starts, levels of energy.
 
 use predicates::prelude::*;
 use predicates::str::contains;
