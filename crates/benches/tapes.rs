@@ -15,7 +15,7 @@ fn tapes(criterion: &mut Criterion) {
         let claim = &item.case.claims[0];
         let subject = BenchClaim::new(&item, claim, 1, 1).expect("it records, and has states");
         let mut group = criterion.benchmark_group(&item.name);
-        println!("{}: {} operations a state", item.name, subject.residual().operations());
+        println!("{}: {} operations per state", item.name, subject.residual().operations());
         let measured = measure_item(&item, &Amount::default(), &|_| ()).expect("it is measured");
         if let [Some(ratio)] =
             measured.iter().map(|m| m.ratio_to_num_dual("f64")).collect::<Vec<_>>()[..]

@@ -256,7 +256,11 @@ fn one_of_field_and_map(root: &CaseTable<'_>, system: &str) {
             "a map has images, and no rates",
             "remove [field], or write system = \"field\" and remove [map]",
         ),
-        _ => ("map", "[map] gives a map", "write system = \"map\", or remove [map]"),
+        _ => (
+            "map",
+            "[map] defines a discrete map, and this system is a flow",
+            "remove [map], or write system = \"map\" and remove [field]",
+        ),
     };
     if let Some(section) = root.table(unread) {
         let (message, remedy) = (message.to_string(), remedy.to_string());

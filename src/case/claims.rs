@@ -182,11 +182,14 @@ pub fn read_motion(
 /// The mistake of a claim with no statement, or several.
 pub fn statements(section: &CaseTable<'_>, given: usize) -> Mistake {
     let message = match given {
-        0 => "this claim states nothing".to_string(),
+        0 => "this claim has no statement".to_string(),
         _ => format!("this claim makes {given} statements"),
     };
     let remedy = match given {
-        0 => format!("give one of {}", [STATEMENTS, MOTIONS, ABSENCES].concat().join(", ")),
+        0 => format!(
+            "write integral = \"…\", density = \"…\" or another statement; `liouville schema` lists all {}",
+            [STATEMENTS, MOTIONS, ABSENCES].concat().len()
+        ),
         _ => "write a [[claim]] for each".to_string(),
     };
     Mistake::at(section.span.clone(), Problem::Other { message, remedy })

@@ -30,7 +30,7 @@ impl Condition {
     /// Requires that a density is finite, or the measure may be infinite there.
     pub fn finite(value: Expr, field: &[Expr]) -> Self {
         let need = Need::Finite { value, field: field.to_vec() };
-        let otherwise = "ρ is infinite: it is a measure away from such states".to_string();
+        let otherwise = "ρ is infinite: it is a measure only where it is finite".to_string();
         Self { need, otherwise, is_essential: false }
     }
 }

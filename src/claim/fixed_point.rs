@@ -199,10 +199,7 @@ impl FixedPoint {
         let (resting, polynomial) = found.split_at(count);
         if resting.iter().any(|(value, error)| value.abs() > *error) {
             let values: Vec<String> = resting.iter().map(|(value, _)| short(*value)).collect();
-            return Some(format!(
-                "the point is no fixed point: {} there, not 0",
-                values.join(", ")
-            ));
+            return Some(format!("this is not a fixed point: {} there, not 0", values.join(", ")));
         }
         if resting.iter().any(|(_, error)| *error > RESOLVED) {
             return None;

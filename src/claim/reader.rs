@@ -122,7 +122,7 @@ pub trait Reader {
             Some(found) if found == word => Ok(()),
             Some(found) => Err(self.complaint(
                 key,
-                format!("`{found}` cannot be claimed here"),
+                format!("`{found}` is not a value of `{key}`"),
                 &format!("write \"{word}\", and expect = \"fails\" where it does not"),
             )),
             None => Err(self.missing(key)),

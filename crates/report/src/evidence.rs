@@ -47,7 +47,10 @@ pub fn details(path: &str, report: &CaseReport) -> String {
         }
         let evidence = &claim.evidence;
         if evidence.measured.is_empty() && evidence.method != Method::Count {
-            out.push_str(&format!("      residual  {} operations a state\n", evidence.operations));
+            out.push_str(&format!(
+                "      residual  {} operations per state\n",
+                evidence.operations
+            ));
         }
         for (index, found) in evidence.measured.iter().enumerate() {
             let label = if index == 0 { "measured" } else { "" };
@@ -58,7 +61,7 @@ pub fn details(path: &str, report: &CaseReport) -> String {
             out.push_str(&format!("      {label:<9} {}: {}\n", rung.rung, rung.found));
         }
         if let Some(scaled) = evidence.max_scaled_residual {
-            out.push_str(&format!("      rounding  {scaled:.3} of its error bound at most\n"));
+            out.push_str(&format!("      rounding  at most {scaled:.3} of its error bound\n"));
         }
         if let Some(sign) = evidence.sign {
             let sign = match sign {

@@ -87,14 +87,14 @@ pub fn text(title: &str, report: &SearchReport) -> String {
         }
     }
     if report.found.is_empty() && report.unreached.is_empty() {
-        out.push_str("\nnothing was found among the terms that were tried\n");
+        out.push_str("\nno invariant was found among the terms tried\n");
     }
     for excluded in &report.excluded {
         out.push_str(&format!("\ntheorem\n  {}\n", excluded.theorem));
     }
     for opinion in &report.opinions {
         let Some(zero) = opinion.largest_zero else { continue };
-        let verdict = if opinion.agrees() { "agrees" } else { "DOES NOT AGREE" };
+        let verdict = if opinion.agrees() { "agrees with" } else { "contradicts" };
         let (vanish, relations) = match opinion.relations {
             1 => ("1 singular value vanishes".to_string(), "1 relation".to_string()),
             more => (format!("{more} singular values vanish"), format!("{more} relations")),
@@ -104,8 +104,9 @@ pub fn text(title: &str, report: &SearchReport) -> String {
             denominator => format!(" over {denominator}"),
         };
         out.push_str(&format!(
-            "\nsecond opinion in f64 on the rates of {} terms{over} at {} states: {vanish} (at most \
-             {zero:.1e}, the others at least {:.1e}), which {verdict} with {relations} modulo a prime\n",
+            "\ncross-check in floating point, on the rates of {} terms{over} at {} states: {vanish} \
+             (at most {zero:.1e}, the others at least {:.1e}), which {verdict} {relations} modulo a \
+             prime\n",
             opinion.terms, opinion.states, opinion.smallest
         ));
     }

@@ -343,7 +343,7 @@ pub fn conclude(
         }
         // Of a body the motion without them is counted as well.
         (false, true) if !matches!(case.model.system, System::Lagrangian(_)) => {
-            " Potential, gyrostat and moments are those of the case."
+            " The potential, the rotor and the moments are those of the case."
         }
         (false, _) => "",
     };
@@ -351,7 +351,7 @@ pub fn conclude(
     let formulas: Vec<&Formula> = generators.map(|(formula, _)| formula).collect();
     let what = match formulas.is_empty() {
         true => format!(
-            "there is no integral polynomial in the velocities of degree at most {degree}, constants aside."
+            "there is no integral polynomial in the velocities of degree at most {degree}, other than constants."
         ),
         false => format!(
             "every integral polynomial in the velocities of degree at most {degree} is a polynomial in {}.",

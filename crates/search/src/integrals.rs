@@ -249,7 +249,7 @@ pub fn over_denominators(
             }
             false if functions.has_symbols => {}
             false => report.remark(format!(
-                "no second opinion on {count} terms over {denominator}: their singular values take too long"
+                "no cross-check of {count} terms over {denominator}: their singular values take too long"
             )),
         }
         if irrational > 0 {

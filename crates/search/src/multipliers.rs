@@ -150,7 +150,7 @@ fn theorem(case: &Case, effort: &Effort, free: bool, mixed: bool) -> Excluded {
         (true, _) => {
             " Leading forms belong to the free motion, so this holds for every gyrostat and every potential."
         }
-        (false, true) => " Potential, gyrostat and moments are those of the case.",
+        (false, true) => " The potential, the rotor and the moments are those of the case.",
         (false, false) => "",
     };
     let what = match degree {

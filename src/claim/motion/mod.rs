@@ -208,7 +208,7 @@ fn word<R: Reader, T: Copy>(
         Some((_, meaning)) => Ok(Some(*meaning)),
         None => {
             let known: Vec<String> = words.iter().map(|(word, _)| format!("\"{word}\"")).collect();
-            let message = format!("`{text}` cannot be claimed here");
+            let message = format!("`{text}` is not a value of `{key}`");
             Err(from.complaint(key, message, &format!("write {}", known.join(" or "))))
         }
     }

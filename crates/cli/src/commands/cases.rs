@@ -36,7 +36,7 @@ pub enum Action {
         /// Folder to write to
         #[arg(default_value = ".", conflicts_with = "out")]
         folder: PathBuf,
-        /// The same folder
+        /// Folder to write to; the same as [FOLDER]
         #[arg(long, value_name = "FOLDER")]
         out: Option<PathBuf>,
     },

@@ -20,11 +20,11 @@ pub struct CheckArgs {
     pub settings: Vec<String>,
     #[command(flatten)]
     pub bodies: bodies::BodiesArgs,
-    /// Show only claims whose name or source contains this text, or matches it if it has `*` or
-    /// `?`, and those of this kind
+    /// Show only claims whose kind is this text, or whose name or source contains it, or matches it
+    /// if it has `*` or `?`
     #[arg(long = "claim", value_name = "TEXT")]
     pub claims: Vec<String>,
-    /// Show only claims that state this of a publication: an equation, theorem, figure or cell of a
+    /// Show only claims with this label of a publication: an equation, theorem, figure or cell of a
     /// table, or a pattern with `*` or `?`
     #[arg(long = "source", value_name = "LABEL")]
     pub sources: Vec<String>,
@@ -53,7 +53,7 @@ pub struct CheckArgs {
     /// Show each claim of each case, with witnesses and evidence
     #[arg(short, long, conflicts_with = "bodies_table")]
     pub verbose: bool,
-    /// Print the summary alone
+    /// Print only the summary
     #[arg(short, long, conflicts_with = "verbose")]
     pub quiet: bool,
     /// Judge again whenever a file changes, until Ctrl-C

@@ -19,7 +19,7 @@ pub struct Man {
     /// Folder to write the pages to
     #[arg(required_unless_present = "out", conflicts_with = "out")]
     pub folder: Option<PathBuf>,
-    /// The same folder
+    /// Folder to write to; the same as [FOLDER]
     #[arg(long, value_name = "FOLDER")]
     pub out: Option<PathBuf>,
 }

@@ -152,7 +152,7 @@ fn written<N: point::Decimal>(
 
 fn setting(text: &str) -> Result<Setting, String> {
     let (name, value) = text.split_once('=').ok_or_else(|| {
-        format!("error: --set: `{text}` is not of the form name=value, such as m=5/4")
+        format!("error: --set: `{text}` is not of the form name=value\nhelp: write --set m=5/4")
     })?;
     if let Some(separate) = several(text) {
         return Err(format!(

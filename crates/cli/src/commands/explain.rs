@@ -21,7 +21,7 @@ struct Explanation {
 
 pub fn run(options: &Explain) -> Result<CommandOutput, String> {
     let entries = entries();
-    let words = || entries.iter().map(|entry| entry.word.to_lowercase()).collect::<Vec<_>>();
+    let words = || entries.iter().map(|entry| entry.word).collect::<Vec<_>>();
     if options.word.is_empty() {
         let text = format!("{}\n", words().join("\n"));
         return Ok(CommandOutput { text, code: 0 });
@@ -30,7 +30,7 @@ pub fn run(options: &Explain) -> Result<CommandOutput, String> {
     let by_word: Vec<&Explanation> =
         entries.iter().filter(|entry| entry.word.to_lowercase() == asked).collect();
     let emphasised = format!("*{asked}*");
-    let is_defined = |entry: &&Explanation| entry.text.contains(&emphasised);
+    let is_defined = |entry: &&Explanation| entry.text.to_lowercase().contains(&emphasised);
     let found = match (by_word.is_empty(), entries.iter().find(is_defined)) {
         (false, _) => by_word,
         (true, Some(entry)) => vec![entry],
@@ -38,7 +38,7 @@ pub fn run(options: &Explain) -> Result<CommandOutput, String> {
     };
     if found.is_empty() {
         return Err(format!(
-            "error: `{asked}` has no explanation\nhelp: there are {}",
+            "error: no glossary entry for `{asked}`\nhelp: entries: {}",
             words().join(", ")
         ));
     }
@@ -57,7 +57,7 @@ fn entries() -> Vec<Explanation> {
                 entries.push(Explanation { word, text });
             }
             (None, Some(_)) if line.starts_with("More: ") => break,
-            (None, Some(entry)) if !line.starts_with("```") => {
+            (None, Some(entry)) if !line.starts_with("```") && !line.starts_with('#') => {
                 entry.text.push_str(line);
                 entry.text.push('\n');
             }
@@ -123,10 +123,10 @@ mod tests {
         let verdict = explained("refuted");
         assert!(verdict.contains("- refuted: the residual is not zero"), "{verdict}");
         assert!(
-            verdict.contains("- confirmed: zero") && verdict.contains("p*(2*sin(π/6) − 1)"),
+            verdict.contains("- confirmed: zero") && verdict.contains("p*(4*cos(2*π/5) − √5 + 1)"),
             "{verdict}"
         );
-        assert!(explained("flibber").contains("there are claim, state, level set"), "unknown");
+        assert!(explained("flibber").contains("entries: Claim, Residual, Verdict"), "unknown");
         for entry in entries() {
             let text = plain(&entry.text);
             assert!(!text.contains("**") && !text.contains('`'), "{text}");

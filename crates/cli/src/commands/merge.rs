@@ -13,7 +13,7 @@ use crate::parts::{Set, from_folder};
 pub struct Merge {
     /// Folder of the parts
     pub folder: PathBuf,
-    /// Write what the job would write in one run: a picture or data, by the ending of the file
+    /// Write what the job would write in one run: a picture or data, by the extension of the file
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
     /// Options of the report, in place of those that the parts were computed with: -- --colour

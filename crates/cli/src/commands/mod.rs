@@ -12,6 +12,7 @@ pub mod explain;
 pub mod explore;
 pub mod export;
 mod files;
+mod headings;
 pub mod jobs;
 mod judging;
 mod limits;
@@ -49,7 +50,7 @@ Examples:
   liouville new rolling body.toml      start a case of a rolling body
   liouville check body.toml -v         judge its claims, with the evidence
   liouville report body.toml           list all of its invariants
-  liouville cases list kovalevskaya    look into the catalogue";
+  liouville cases list kovalevskaya    search the catalogue";
 
 /// Decides which tensor invariants a mechanical system has.
 #[derive(Debug, Parser)]
@@ -83,33 +84,33 @@ Examples:
   liouville check body.toml --settings bodies.csv --part 3/40 --out parts/
   liouville check body.toml --certificate proofs; python3 docs/certificates/check.py proofs/*")]
     Check(CheckArgs),
-    /// Evaluate the field, the divergence, the criterion and all claims of a case at one state
+    /// Evaluate the field, its divergence and all claims of a case at one state
     #[command(
         after_help = "Example:\n  liouville eval plane/balanced-ball --set m=5/4 --digits 50"
     )]
     Eval(eval::Eval),
     #[command(flatten)]
     Explore(Box<explore::ExploreCommand>),
-    /// Put the parts of a job together: the file that one run writes, with the same bytes
+    /// Merge the parts of a job into the file that a single run would write
     #[command(after_help = "\
 Examples:
   for i in 1 2 3 4; do liouville motion chart figures/fig-8 --x c1=0..2 --y c2=0..2 --part $i/4 --out parts/; done
   liouville merge parts --out chart.png
   liouville merge parts --out chart.pdf -- --colour exponent --width 85")]
     Merge(merge::Merge),
-    /// Replay proofs about motion from their certificates, in balls of integers
+    /// Check certificates of proofs about motion, by integer ball arithmetic
     #[command(after_help = "\
-Example:
+Examples:
   liouville check figures/fig-8 --motion --claim 'no density' --certificate proofs
   liouville verify proofs/*.json")]
     Verify(verify::Verify),
-    /// Print a hierarchy table of the paper, filled from verdicts
+    /// Print a hierarchy table of the papers, filled from verdicts
     #[command(after_help = "Example:\n  liouville table 1 --format latex")]
     Table(table::TableArgs),
-    /// Write a commented case to start from
+    /// Write a commented template of a case
     #[command(after_help = "Example:\n  liouville new field system.toml")]
     New(new::New),
-    /// Write the field, the level equations and the claims of a case as code in another language
+    /// Export the field, the level equations and the claims of a case as code
     #[command(after_help = "\
 Examples:
   liouville export plane/balanced-ball --to python --claim F2 --out ball.py
@@ -118,7 +119,7 @@ Examples:
     /// List the names that formulas of a case may use
     #[command(after_help = "Example:\n  liouville names plane/balanced-ball")]
     Names(names::NamesArgs),
-    /// Explain a word of the reports
+    /// Print a glossary entry
     #[command(after_help = "Example:\n  liouville explain witness")]
     Explain(explain::Explain),
     /// List, show or copy cases of the catalogue inside the program
@@ -174,7 +175,7 @@ impl Arguments {
         for one in former.get_subcommands() {
             command = command.mut_subcommand(one.get_name(), |own| own.hide(true));
         }
-        with_negative_numbers(command)
+        headings::grouped(headings::ordered(with_negative_numbers(command)))
     }
 }
 

@@ -61,7 +61,7 @@ pub fn check_ending(path: &Path, option: &str, known: &[&str]) -> Result<(), Str
     match ending.is_some_and(|ending| known.contains(&ending)) {
         true => Ok(()),
         false => Err(format!(
-            "error: the ending of {} is not known to {option}\nhelp: use .{}",
+            "error: {option}: the format of {} is unknown\nhelp: use .{}",
             path.display(),
             known.join(", .")
         )),

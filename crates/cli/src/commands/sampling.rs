@@ -8,7 +8,7 @@ pub struct SamplingArgs {
     /// Seed of all random states
     #[arg(long, default_value_t = 1)]
     pub seed: u64,
-    /// Number of states a claim must survive (rounded up to blocks of 64)
+    /// Number of states at which a claim is tested (rounded up to blocks of 64)
     #[arg(long, default_value_t = 256, value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
     pub states: u64,
     /// Evidence required for a claim to hold: a proof, or states in floating point alone (faster).

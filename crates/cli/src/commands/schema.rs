@@ -221,7 +221,7 @@ mod tests {
     use liouville::claim::absence::Absence;
     use liouville_catalogue::CATALOGUE;
 
-    /// Where a value breaks the schema, if anywhere.
+    /// First place where a value breaks the schema.
     fn broken(schema: &Value, value: &Value, place: &str) -> Option<String> {
         if let Some(all) = schema.get("enum").and_then(Value::as_array) {
             return (!all.contains(value)).then(|| format!("{place}: {value}"));

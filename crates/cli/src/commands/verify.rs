@@ -4,12 +4,13 @@ use std::path::{Path, PathBuf};
 
 use crate::report::motion_certificate::{HORSESHOES, ORBITS, verify};
 use clap::Args;
+use liouville::verdict::Options;
 use liouville_search::Meter;
 
 use super::eval::read_settings;
 use super::progress::telling;
 use super::threads::pool;
-use super::{CommandOutput, LimitArgs, SamplingArgs, source};
+use super::{CommandOutput, LimitArgs, parse_threads, source};
 
 /// Words by which a certificate of a proof by points is known.
 const BY_POINTS: &str = "\"liouville certificate 1\"";
@@ -21,12 +22,16 @@ pub struct Verify {
     pub certificates: Vec<PathBuf>,
     #[command(flatten)]
     pub limits: LimitArgs,
-    #[command(flatten)]
-    pub sampling: SamplingArgs,
+    /// Seed of the primes with which conserved quantities are proved again
+    #[arg(long, default_value_t = 1)]
+    pub seed: u64,
+    /// Number of threads; all cores by default
+    #[arg(long, value_parser = parse_threads)]
+    pub threads: Option<usize>,
 }
 
 pub fn run(options: &Verify) -> Result<CommandOutput, String> {
-    let pool = pool(options.sampling.threads.unwrap_or(0))?;
+    let pool = pool(options.threads.unwrap_or(0))?;
     let (mut text, mut refused) = (String::new(), 0);
     for path in &options.certificates {
         let told = telling(Meter::default(), |tell| {
@@ -56,7 +61,8 @@ fn one(path: &Path, options: &Verify) -> Result<Result<String, String>, String> 
         let reason = "a proof by points, which `python3 docs/certificates/check.py` checks";
         return Ok(Err(reason.to_string()));
     }
-    Ok(verify(&text, &options.sampling.options(), &read_settings).map(|report| {
+    let judging = Options { seed: options.seed, ..Options::default() };
+    Ok(verify(&text, &judging, &read_settings).map(|report| {
         let theorem = report.evidence.theorem.unwrap_or_default();
         format!("proved   {}: {}\n         {theorem}\n", path.display(), report.name)
     }))

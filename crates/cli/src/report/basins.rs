@@ -28,7 +28,7 @@ pub struct BasinReport<'r> {
     pub request: &'r BasinRequest<'r>,
     /// Whether motions were told apart by values other than their states.
     pub has_values: bool,
-    /// What was found.
+    /// Basins found.
     pub found: &'r Basins,
 }
 

@@ -104,7 +104,8 @@ pub fn verify(
     options: &Options,
     settings: &Settings<'_>,
 ) -> Result<ClaimReport, String> {
-    let whole = unique_keys::read(text).map_err(|error| format!("it is not JSON: {error}"))?;
+    let whole =
+        unique_keys::read(text).map_err(|error| format!("the file is not JSON: {error}"))?;
     let own = CertificatePart { value: &whole, path: String::new() };
     own.only(&["format", "statement", "proof", "digest"])?;
     let key = match own.text("format")? {

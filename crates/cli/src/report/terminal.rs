@@ -219,8 +219,8 @@ fn remark(claim: &ClaimReport) -> String {
         Verdict::Confirmed | Verdict::Proved => {
             words.push(evidence.holds.join("; "));
             match evidence.independence {
-                Some(Independence::Constant) => words.push("trivial: constant there".to_string()),
-                Some(Independence::General) => words.push("a general integral".to_string()),
+                Some(Independence::Constant) => words.push("constant on the level".to_string()),
+                Some(Independence::General) => words.push("function of the energy".to_string()),
                 _ => {}
             }
             match evidence.sign {
@@ -313,7 +313,7 @@ fn summary(run: &RunReport) -> String {
     }
     if summary.motions_left > 0 {
         let left = count(summary.motions_left, "claim");
-        line.push_str(&format!("; {left} about motion not looked at: add --motion"));
+        line.push_str(&format!("; {left} about motion not judged (add --motion)"));
     }
     if let Some(mutants) = summary.mutants {
         line.push_str(&format!(

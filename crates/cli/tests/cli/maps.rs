@@ -211,7 +211,7 @@ fn what_speaks_of_a_flow_is_refused_at_its_place() {
 #[test]
 fn a_file_has_rates_or_images() {
     let both = format!("{TURN}[field]\nx = 'y'\ny = '−x'\n");
-    assert!(mistake(&both).0.contains("[map] gives a map"), "[field] comes first");
+    assert!(mistake(&both).0.contains("[map] defines a discrete map"), "[field] comes first");
     let named = both.replace("title = 't'", "title = 't'\nsystem = 'map'");
     assert!(mistake(&named).0.contains("no rates"), "unless the system is named");
     let missing = TURN.replace("y = '−x'\n", "");

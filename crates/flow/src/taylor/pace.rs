@@ -163,7 +163,7 @@ pub(crate) struct Pace {
     runaway: Runaway,
     /// Whether the motion is one of many, of which none may take long.
     pub(crate) is_hasty: bool,
-    /// Why the end is out of reach, if it is.
+    /// Reason why the end is out of reach, if it is.
     pub(crate) lost: Option<Lost>,
 }
 

@@ -18,7 +18,7 @@ pub enum Next {
     DivideInput(usize),
     /// Drop the cell: no real inputs lie in it, up to the bounded probability.
     Empty(Option<Certificate>),
-    /// Keep the findings of the test.
+    /// Keeps the findings of the test.
     Tested(Vec<Option<TrialResult>>),
 }
 

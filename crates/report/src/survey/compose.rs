@@ -15,7 +15,7 @@ use liouville_search::survey::{
 /// Composes the document of a survey; `origin` names the program and the case.
 pub fn document(survey: &Survey, origin: &str) -> Document {
     let sections = [
-        DocumentSection::new("Where it stands", standing(survey)),
+        DocumentSection::new("Classification", standing(survey)),
         DocumentSection::new("The system", system(survey)),
         DocumentSection::new("General integrals", blocks(&survey.general)),
         DocumentSection::new("Invariant measure", measure(survey)),
@@ -26,10 +26,10 @@ pub fn document(survey: &Survey, origin: &str) -> Document {
         DocumentSection::new("Symmetry fields", blocks(&survey.fields)),
         DocumentSection::new("Reversors and symmetries", maps(survey)),
         DocumentSection::new("Conformally Hamiltonian form", hamiltonian(survey)),
-        DocumentSection::new("What is excluded", excluded(survey)),
+        DocumentSection::new("Excluded invariants", excluded(survey)),
         DocumentSection::new("Not proved", blocks(&survey.undecided)),
-        DocumentSection::new("What the case claims", blocks(&survey.claimed)),
-        DocumentSection::new("How to repeat this", repeated(survey.seed, origin)),
+        DocumentSection::new("Claims of the case", blocks(&survey.claimed)),
+        DocumentSection::new("Reproducibility", repeated(survey.seed, origin)),
     ];
     Document {
         title: survey.title.clone(),
@@ -47,9 +47,9 @@ pub fn of_claims(case: &Case, report: &CaseReport, seed: u64, origin: &str) -> D
     let told = told.chain(report.remarks.iter().map(|remark| text(format!("Remark: {remark}."))));
     let sections = [
         DocumentSection::new("The system", described(&own)),
-        DocumentSection::new("What the case claims", blocks(&claims.collect::<Vec<_>>())),
+        DocumentSection::new("Claims of the case", blocks(&claims.collect::<Vec<_>>())),
         DocumentSection::new("Notes", told.collect()),
-        DocumentSection::new("How to repeat this", repeated(seed, origin)),
+        DocumentSection::new("Reproducibility", repeated(seed, origin)),
     ];
     Document {
         title: case.title.clone(),
@@ -66,12 +66,12 @@ fn text(words: impl Into<String>) -> SectionBlock {
 fn standing(survey: &Survey) -> Vec<SectionBlock> {
     let standing = &survey.hierarchy;
     let mut found = vec![
-        text(format!("In the hierarchy: {}.", standing.class.words())),
+        text(format!("Class: {}.", standing.class.words())),
         SectionBlock::List(standing.grounds.clone()),
         SectionBlock::Picture(picture::hierarchy(standing)),
     ];
     if !standing.typical.is_empty() {
-        found.push(text("Typical of it:"));
+        found.push(text("Typical behaviour of this class:"));
         found.push(SectionBlock::List(standing.typical.clone()));
     }
     found
@@ -103,7 +103,7 @@ fn system(survey: &Survey) -> Vec<SectionBlock> {
     let has_free = survey.parameters.iter().any(|one| one.value.is_none());
     if has_free {
         found.push(text(
-            "What is proved holds for all values of the free parameters, unless a remark says otherwise.",
+            "Proofs cover all values of the free parameters, unless a remark says otherwise.",
         ));
     }
     let (holds, fails): (Vec<_>, Vec<_>) = survey.facts.iter().partition(|fact| fact.holds);
@@ -111,11 +111,11 @@ fn system(survey: &Survey) -> Vec<SectionBlock> {
         facts.iter().map(|fact| fact.words.clone()).collect::<Vec<_>>()
     };
     if !holds.is_empty() {
-        found.extend([text("Established:"), SectionBlock::List(told(holds))]);
+        found.extend([text("Verified properties:"), SectionBlock::List(told(holds))]);
     }
     if !fails.is_empty() {
         let not = told(fails).join("; ");
-        let words = if has_free { "Not so for all values of the parameters" } else { "Ruled out" };
+        let words = if has_free { "Not true for all parameter values" } else { "Ruled out" };
         found.push(text(format!("{words}: {not}.")));
     }
     let grounds = survey.facts.iter().map(|fact| match &fact.claim {
@@ -127,7 +127,7 @@ fn system(survey: &Survey) -> Vec<SectionBlock> {
     });
     let grounds: Vec<String> = grounds.collect();
     if !grounds.is_empty() {
-        found.push(SectionBlock::Folded("how each was decided", grounds));
+        found.push(SectionBlock::Folded("evidence", grounds));
     }
     found.extend(survey.notes.iter().map(|note| text(format!("Note: {note}"))));
     found.extend(survey.warnings.iter().map(|warning| text(format!("Warning: {warning}."))));
@@ -139,7 +139,10 @@ fn measure(survey: &Survey) -> Vec<SectionBlock> {
     let mut found = blocks(&survey.criterion);
     let witness = survey.criterion.iter().find_map(|one| one.claim.evidence.witness.as_ref());
     found.extend(
-        witness.map(|found| text(format!("The criterion is not 0; {}.", entry::witness(found)))),
+        witness.map(|found| text(format!(
+                "A density of the configuration exists only if the criterion vanishes. It does not; {}.",
+                entry::witness(found)
+            ))),
     );
     if !survey.by_value.is_empty() && survey.criterion.iter().any(TestedClaim::fails) {
         found.push(text(
@@ -165,19 +168,20 @@ fn measure(survey: &Survey) -> Vec<SectionBlock> {
         });
         let what = match map.quantity {
             "C₁" => {
-                "The condition C₁ over the sphere of γ: with a density of the configuration it would be 0 everywhere."
+                "The condition C₁ on the sphere of γ. A density of the configuration exists only if it is 0 everywhere."
             }
             "C" => {
-                "The criterion (γ, rot w) over the sphere of γ: it would be 0 everywhere if there were a density of the configuration."
+                "The criterion (γ, rot w) on the sphere of γ. A density of the configuration exists only if it is 0 everywhere."
             }
             _ => {
-                "ln ρ over the sphere of γ, less its value at e₁, by quadrature from the criterion."
+                "ln ρ on the sphere of γ, normalised to 0 at e₁, computed by quadrature from the criterion."
             }
         };
         let values: Vec<String> =
             map.parameters.iter().map(|(name, value)| format!("{name} = {value}")).collect();
         let of = match values.is_empty() || values.len() > 12 {
-            true => " For the parameters of the first state.".to_string(),
+            true if values.is_empty() => " For the parameters of the case.".to_string(),
+            true => " For the parameters drawn for state 0.".to_string(),
             false => format!(" For {}.", values.join("; ")),
         };
         let largest =
@@ -316,9 +320,9 @@ fn excluded(survey: &Survey) -> Vec<SectionBlock> {
         let has_free = survey.parameters.iter().any(|one| one.value.is_none());
         found.push(text(match has_free {
             true => {
-                "Properties of related systems that this one does not have for all values of the parameters:"
+                "Invariants of related systems that this one does not have for all values of the parameters:"
             }
-            false => "Properties of related systems that are refuted for this one:",
+            false => "Invariants of related systems that are refuted for this one:",
         }));
         found.extend(blocks(&survey.fails));
     }
@@ -349,7 +353,7 @@ fn theorems(search: &SearchOutcome) -> Vec<SectionBlock> {
             rows: search.counts.iter().map(row).collect(),
         });
     }
-    found.extend(search.remarks.iter().map(|remark| text(format!("Not counted: {remark}."))));
+    found.extend(search.remarks.iter().map(|remark| text(format!("Note: {remark}."))));
     found
 }
 

@@ -96,9 +96,10 @@ fn remarks(tested: &TestedClaim) -> Vec<String> {
     if tested.holds() {
         remarks.extend(place(&evidence.holds));
         match evidence.sign {
-            Some(DensitySign::Changes) => {
-                remarks.push("zeros or poles: a measure between them".to_string())
-            }
+            Some(DensitySign::Changes) => remarks.push(
+                "ρ has zeros or poles: it defines a measure on each region between them"
+                    .to_string(),
+            ),
             Some(DensitySign::ChangesWithParameters) => {
                 remarks.push("changes its sign with the parameters: take |ρ|".to_string())
             }

@@ -16,7 +16,7 @@ pub fn in_involution(proof: &LiouvilleProof) -> String {
         _ => format!("{names} are in involution, and these {count} are enough"),
     };
     format!(
-        "In {bracket} {known} for Liouville's theorem. It speaks of joint levels that are compact and \
-         connected, and on which the gradients are independent; that a level is compact is not examined."
+        "In {bracket} {known} for Liouville's theorem. It applies to compact connected joint levels on \
+         which the gradients are independent; compactness is not checked."
     )
 }

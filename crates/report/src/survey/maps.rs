@@ -36,10 +36,10 @@ pub fn maps(survey: &Survey) -> Vec<SectionBlock> {
     } else {
         let place = if survey.independence.has_level { " on the level set" } else { "" };
         found.push(SectionBlock::Text(format!(
-            "Reversors, with the dimension of what they leave in place{place}:"
+            "Reversors, with the dimension of their fixed set{place}:"
         )));
         let is_named = has_names(&survey.reversors);
-        let head = ["reversor", "map", "verdict", "dimension"];
+        let head = ["reversor", "map", "verdict", "fixed set"];
         found.push(SectionBlock::Table {
             head: head[usize::from(!is_named)..].to_vec(),
             rows: survey.reversors.iter().map(|one| row(one, is_named, true)).collect(),

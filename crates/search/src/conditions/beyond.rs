@@ -58,7 +58,7 @@ impl ConditionSearch<'_> {
         }
         let others = match unknown {
             0 => "real values of the parameters",
-            _ => "real values of the parameters than those told or counted",
+            _ => "real values of the parameters than those reported or counted",
         };
         self.report.remark(match last {
             0 => format!("conditions of several equations are sought {simple}"),

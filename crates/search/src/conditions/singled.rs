@@ -301,7 +301,7 @@ impl SingledValues {
         text.push_str(&format!("; {scope} it holds for no "));
         text.push_str(match self.equations.len() {
             0 => "real values of the parameters",
-            _ => "other real values than those told",
+            _ => "real values other than those reported",
         });
         match self.unknown {
             0 => {}

@@ -72,7 +72,7 @@ impl Compared {
 /// States that no fraction of polynomials of a class is an integral.
 pub fn none_is(class: &str) -> String {
     format!(
-        "no fraction P/Q of {class}, Q = 1 among them, with any complex coefficients, is an integral, \
+        "no fraction P/Q of {class} (Q = 1 included), with any complex coefficients, is an integral, \
          except constants"
     )
 }

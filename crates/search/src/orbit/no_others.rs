@@ -47,7 +47,7 @@ pub fn statement(names: &str, degree: u32, known: &[Formula]) -> String {
         "Darboux polynomial of degree at most {degree} in {names}, with any complex coefficients,"
     );
     match known {
-        [] => format!("no {class} exists, constants aside"),
+        [] => format!("there is no {class} other than constants"),
         known => {
             let known: Vec<&str> = known.iter().map(Formula::text).collect();
             format!(

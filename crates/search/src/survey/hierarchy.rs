@@ -168,24 +168,24 @@ fn grounds_of(measure: MeasureStatus) -> &'static str {
         MeasureStatus::ClosedForm => "a measure: proved, in closed form",
         MeasureStatus::ByQuadrature => "a measure: proved to exist, by quadrature",
         MeasureStatus::Excluded => {
-            "no measure: the criterion is not 0, so that no density is positive and C¹ near ω = 0; one \
-             with singularities there is not excluded"
+            "no measure: the criterion is not 0, so that no density is positive and C¹ near ω = 0; \
+             densities with singularities there are not excluded"
         }
         MeasureStatus::ExcludedAtRotation => {
-            "no measure: near a permanent rotation no density is continuous and positive; one with \
-             singularities there is not excluded"
+            "no measure: near a permanent rotation no density is continuous and positive; \
+             densities with singularities there are not excluded"
         }
         MeasureStatus::ExcludedAtRest => {
-            "no measure: near the rest at 0, where volumes change, no density is continuous and positive; \
-             one with singularities there is not excluded"
+            "no measure: near the equilibrium 0, where volumes change, no density is continuous and \
+             positive; densities with singularities there are not excluded"
         }
         MeasureStatus::ExcludedForConfiguration => {
             "a measure: not known; no density of the configuration alone exists, one that depends on \
              the velocities is open"
         }
         MeasureStatus::Singular => {
-            "a measure: on each part between the zeros and poles of an invariant density, which no motion \
-             crosses; on all of the states none is known"
+            "a measure: one on each region between the zeros and poles of an invariant density, which no \
+             motion crosses; none is known on the whole space of states"
         }
         MeasureStatus::WithTime => {
             "a measure: not known; the density that was found contains t, so that volumes in the space of \
@@ -250,7 +250,7 @@ fn typical(
             "the flow preserves a measure on the levels of the energy: no attractors on compact ones",
         ],
         (HierarchyClass::MeasureOnly, _) => &[
-            "the Poincaré map preserves an area: no attractors, islands in a chaotic sea as in a \
+            "the Poincaré map preserves an area: no attractors, typically islands in a chaotic sea, as in a \
              Hamiltonian system",
         ],
         (HierarchyClass::Neither, _) => &[

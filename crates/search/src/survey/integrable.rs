@@ -275,8 +275,8 @@ impl HierarchyPlace {
     }
 }
 
-const ON_CURVES: &str = "the integrals are as many as to make their joint levels curves where they are \
-                         smooth and independent: a compact one without fixed points is a closed orbit";
+const ON_CURVES: &str = "there are enough integrals that their joint levels are curves, where they are \
+                         smooth and independent; a compact one without equilibria is a closed orbit";
 
 #[cfg(test)]
 mod tests {

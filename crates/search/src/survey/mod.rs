@@ -188,6 +188,7 @@ fn of_all_values(
 ) -> Result<Survey, JudgeError> {
     progress("claims of the case");
     let own = crate::absence::judge(case, options)?;
+    let notes = notes(case, own.motions_left);
     let claimed: Vec<TestedClaim> = own
         .claims
         .into_iter()
@@ -298,7 +299,7 @@ fn of_all_values(
         description: Description::of(case),
         parameters: words::parameters(case),
         wireframe: wireframe::of(case, options)?,
-        notes: case.notes.clone(),
+        notes,
         facts: geometry.facts,
         hierarchy,
         by_value: Vec::new(),
@@ -328,7 +329,18 @@ fn of_all_values(
     })
 }
 
-/// Whether 0 is proved to be a rest of a field at which no density is continuous and positive.
+/// Notes of the case, and one on its claims about motion, which are not judged here.
+fn notes(case: &Case, motions_left: usize) -> Vec<String> {
+    let left = match motions_left {
+        0 => None,
+        1 => Some("1 claim about motion is".to_string()),
+        more => Some(format!("{more} claims about motion are")),
+    };
+    let left = left.map(|own| format!("{own} judged by `liouville check --motion` alone"));
+    case.notes.iter().cloned().chain(left).collect()
+}
+
+/// Whether 0 is proved to be an equilibrium of a field at which no density is continuous and positive.
 fn changes_volumes_at_zero(case: &Case, options: &Options) -> bool {
     let is_inside = |draw: &Draw| match draw {
         Draw::Within(range) => {

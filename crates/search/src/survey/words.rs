@@ -82,8 +82,8 @@ pub fn sentence(case: &Case, facts: &[GeometryFact]) -> String {
         System::Lagrangian(own) if own.constraints.is_empty() => "A Lagrangian system.".to_string(),
         System::Lagrangian(_) => format!("A {} system with a Lagrangian.", case.system),
         System::Hamiltonian(_) => "Hamilton's equations for a given function H.".to_string(),
-        System::Field(_) => "A vector field given by formulas.".to_string(),
-        System::Map(_) => "A map given by formulas.".to_string(),
+        System::Field(_) => "A vector field.".to_string(),
+        System::Map(_) => "A map.".to_string(),
     }
 }
 

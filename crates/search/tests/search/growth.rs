@@ -59,10 +59,10 @@ fn searches_of_many_terms_end_by_the_steps_they_take() {
     };
     // 90³/3 steps, in thousand millions, are enough for the relations, and 90²·122 for singular values.
     let all = remarks(0.003);
-    let is_limited = all.contains("second opinion") || all.contains("take more");
+    let is_limited = all.contains("cross-check") || all.contains("take more");
     assert!(!is_limited, "no limit is reached: {all}");
     let no_opinion = remarks(0.0006);
-    assert!(no_opinion.contains("no second opinion on 90 terms over 1"), "{no_opinion}");
+    assert!(no_opinion.contains("no cross-check of 90 terms over 1"), "{no_opinion}");
     let none = remarks(0.00005);
     assert!(none.contains("not sought: 90 unknowns take more than 0.00005 s"), "{none}");
 }

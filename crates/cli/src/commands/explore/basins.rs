@@ -43,7 +43,7 @@ pub struct BasinArgs {
     /// --fix J=3.1. The option may be repeated
     #[arg(long, value_name = "NAME=VALUE", allow_hyphen_values = true)]
     pub fix: Vec<String>,
-    /// Time to follow each motion; negative: backwards. Its later half shows where it ends
+    /// Time of each motion; negative: backwards. Its later half shows where it ends
     #[arg(long, default_value = "400", allow_hyphen_values = true, value_parser = parse_float)]
     pub time: f64,
     /// Values by which attractors are told apart: --by 'cos(φ), sin(φ), p'. By default the components

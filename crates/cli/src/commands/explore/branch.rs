@@ -113,16 +113,18 @@ impl ContinueArgs {
         varied: Coordinate,
     ) -> Result<[Rational; 2], String> {
         let declared = declared(self, opened, varied);
-        let end = |option: &str, text: Option<&String>, place: usize| match (text, &declared) {
+        let end = |option: &str, text: Option<&String>, place: usize| {
+            match (text, &declared) {
             (Some(text), _) => number_with_pi(text).ok_or_else(|| {
                 format!(
-                    "error: {option}: `{text}` is no number\nhelp: write one, such as 3/2 or 0.25"
+                    "error: {option}: `{text}` is not a number\nhelp: write one, such as 3/2 or 0.25"
                 )
             }),
             (None, Some(declared)) => Ok(declared[place].clone()),
             (None, None) => Err(format!(
                 "error: the range of `{name}` is not known\nhelp: give --from and --to"
             )),
+        }
         };
         let from = end("--from", self.from.as_ref(), 0)?;
         let to = end("--to", self.to.as_ref(), 1)?;

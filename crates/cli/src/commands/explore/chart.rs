@@ -37,7 +37,7 @@ pub struct ChartArgs {
     /// Number of motions across and upwards
     #[arg(long, value_name = "NXxNY", default_value = "64x40", value_parser = parse_size)]
     pub size: [usize; 2],
-    /// Time to follow each motion; negative: backwards. An exponent below (ln t)/t is not detected
+    /// Time of each motion; negative: backwards. An exponent below (ln t)/t is not detected
     #[arg(long, default_value = "200", allow_hyphen_values = true, value_parser = parse_float)]
     pub time: f64,
     #[command(flatten)]

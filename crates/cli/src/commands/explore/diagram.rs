@@ -41,7 +41,7 @@ pub struct DiagramArgs {
     /// states drawn. By default the first start of the case, or one drawn
     #[arg(long, value_parser = parse_count)]
     pub orbits: Option<usize>,
-    /// Follow the motions backwards in time
+    /// Integrate backwards in time
     #[arg(long)]
     pub backwards: bool,
     #[command(flatten)]

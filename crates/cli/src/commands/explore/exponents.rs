@@ -27,7 +27,7 @@ pub struct ExponentsArgs {
     pub subject: MotionArgs,
     #[command(flatten)]
     pub plane: SectionPlaneArgs,
-    /// Time to follow each motion, 2000 by default; negative: backwards. Transients last long: after a
+    /// Time of each motion, 2000 by default; negative: backwards. Transients last long: after a
     /// short time a regular motion may look chaotic
     #[arg(long, allow_hyphen_values = true, value_parser = parse_float)]
     pub time: Option<f64>,
@@ -42,7 +42,7 @@ pub struct ExponentsArgs {
     /// Measure all exponents, one for each dimension of the level, forwards in time
     #[arg(long)]
     pub spectrum: bool,
-    /// Follow the motion in one direction of time only: half the work, and a coarser class
+    /// Integrate in one direction of time only: half the time, but a coarser classification
     #[arg(long)]
     pub one_way: bool,
     /// Write the motions to this file as JSON; with --part the folder of the parts
@@ -76,7 +76,7 @@ pub fn run(options: &ExponentsArgs) -> Result<CommandOutput, String> {
 }
 
 impl ExponentsArgs {
-    /// Time to follow each motion.
+    /// Time of each motion.
     fn time(&self) -> f64 {
         const TIME: f64 = 2000.0;
         self.time.unwrap_or(TIME)

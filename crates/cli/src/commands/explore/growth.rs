@@ -22,7 +22,7 @@ pub struct GrowthArgs {
     /// Stop when a size takes more than N megabytes of memory
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     pub megabytes: Option<u64>,
-    /// Measure this size alone, in this process; print JSON with --format json
+    /// Measure this size alone, in this process
     #[arg(long, requires = "families", value_parser = clap::value_parser!(u64).range(1..))]
     pub size: Option<u64>,
     /// Number of threads; all cores by default

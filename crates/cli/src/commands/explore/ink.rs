@@ -43,7 +43,7 @@ pub struct Ink {
     /// Words below the picture; by default what was drawn and the parameters, and none if it is empty
     #[arg(long)]
     caption: Option<String>,
-    /// Draw on dark paper; an SVG is light or dark by its reader's setting
+    /// Dark background for PNG and PDF; an SVG follows the viewer's colour scheme
     #[arg(long)]
     dark: bool,
 }

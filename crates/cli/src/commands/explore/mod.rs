@@ -52,17 +52,16 @@ Examples:
   liouville report plane/unbalanced-ball --out ball.html
   liouville report plane/unbalanced-ball --settings bodies.csv --out classes.csv")]
     Report(report::ReportArgs),
-    /// Write a page for each case of a folder, and an index of them by hierarchy and by folder
+    /// Write a web page for each case of a folder, and an index by class and by folder
     #[command(after_help = "Example:\n  liouville site cases/plane --out public --within 60")]
     Site(site::Site),
-    /// Evaluate the residuals of claims at very many states in floating point: the largest, relative to
-    /// the size of its terms, and where
+    /// Find the largest residual of each claim over many states, in floating point
     #[command(after_help = "\
 Examples:
   liouville sweep plane/balanced-ball --states 1e8
   liouville sweep plane/balanced-ball --states 1e12 --part 3/40 --out parts/")]
     Sweep(sweep::Sweep),
-    /// Follow motions: orbits, sections, exponents, charts, periodic points
+    /// Integrate motions: orbits, sections, exponents, charts, periodic orbits
     Motion {
         #[command(subcommand)]
         command: Box<MotionCommand>,
@@ -79,8 +78,7 @@ Examples:
 /// Commands about motions.
 #[derive(Debug, Subcommand)]
 pub enum MotionCommand {
-    /// Follow motions, or the iterates of a map: final states, the drift of integrals, and samples as
-    /// data or a picture
+    /// Integrate motions, or iterate a map: drift of integrals, samples as data or a picture
     #[command(after_help = "\
 Examples:
   liouville motion orbit figures/fig-8 --time 1000
@@ -89,8 +87,7 @@ Examples:
   liouville motion orbit spin/rattleback-reversal --time 20 --track --out track.pdf
   liouville motion orbit classical/maps/standard --set s=2 --iterates 2000 --orbits 30 --columns 'atan2(sin(x), cos(x)), p' --out standard.png")]
     Orbit(orbit::OrbitArgs),
-    /// Draw a Poincaré section: of a rolling body in the Andoyer-like variables, of any system by a
-    /// surface
+    /// Draw a Poincaré section: g = g₀ of a rolling body, or any surface of any system
     #[command(after_help = "\
 Examples:
   liouville motion section figures/fig-8 --out section.pdf --width 85 --point-size 0.15
@@ -105,13 +102,13 @@ Examples:
   liouville motion exponents classical/flows/nose-hoover --spectrum
   liouville motion exponents figures/fig-10 --starts starts.csv --part 3/40 --out parts/")]
     Exponents(exponents::ExponentsArgs),
-    /// Draw a plane of motions, such as two parameters, each point coloured by its class
+    /// Draw a chart of chaos: motions over two parameters or starts, coloured by class
     #[command(after_help = "\
 Examples:
   liouville motion chart figures/fig-8 --x c1=0..2 --y c2=0..2 --colour exponent --out chart.pdf
   liouville motion chart figures/fig-8 --x c1=0..2 --y c2=0..2 --part 3/40 --out parts/")]
     Chart(chart::ChartArgs),
-    /// Find closed orbits: periodic points of a section, with their multipliers and errors
+    /// Find closed orbits, with multipliers and error estimates
     #[command(after_help = "\
 Examples:
   liouville motion periodic figures/fig-5 --start pi/2,0
@@ -154,7 +151,7 @@ pub enum MeasureCommand {
     /// Sweep numerically hard cases: digits lost, and verdicts that must stay right
     #[command(after_help = "Example:\n  liouville measure stress --svg stress.svg")]
     Stress(stress::Stress),
-    /// Judge families of cases of growing size: time, memory, and the exponents of growth
+    /// Measure how time and memory grow with the size of a case
     #[command(after_help = "Example:\n  liouville measure growth chain toda --within 10")]
     Growth(growth::GrowthArgs),
 }

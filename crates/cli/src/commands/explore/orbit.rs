@@ -38,7 +38,7 @@ const MOST_ITERATES: f64 = 1e10;
 pub struct OrbitArgs {
     #[command(flatten)]
     pub subject: MotionArgs,
-    /// Time to follow the motion, 100 by default; negative: backwards
+    /// Time of the motion, 100 by default; negative: backwards
     #[arg(long, allow_hyphen_values = true, value_parser = parse_number)]
     pub time: Option<Rational>,
     /// Number of iterates of a map, 1000 by default
@@ -122,7 +122,7 @@ fn answer(options: &OrbitArgs) -> Result<(String, bool), String> {
         return iterates::run(options, &case);
     }
     if options.iterates.is_some() {
-        return Err("error: --iterates: the case has motions in time, and is no map\n\
+        return Err("error: --iterates: this case is not a map\n\
                     help: give a time: --time 100"
             .to_string());
     }

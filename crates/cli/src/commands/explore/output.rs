@@ -69,7 +69,7 @@ impl Output {
                 _ => format!("is none of {}", names.join(", ")),
             };
             return Err(format!(
-                "error: {shown} {message}\nhelp: the ending of --out chooses the format"
+                "error: {shown} {message}\nhelp: the extension of --out chooses the format"
             ));
         };
         out::check(path, "--out", inputs)?;

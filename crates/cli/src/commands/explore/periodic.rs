@@ -201,7 +201,7 @@ fn near_state(
             (start, time, Some(count))
         }
         (None, None) => {
-            return Err("error: the period of the orbit is not known\n\
+            return Err("error: the start does not determine a period\n\
                         help: give --section 'x = 0', whose crossings are counted, or --time with \
                         the approximate period"
                 .to_string());

@@ -45,22 +45,22 @@ pub struct SearchArgs {
     #[arg(long, value_name = "DEGREE", num_args = 0..=1, require_equals = true, default_missing_value = "8",
         value_parser = clap::value_parser!(u32).range(0..=40))]
     pub ansatz: Option<u32>,
-    /// Find the potentials under which the known integrals survive
+    /// Find the potentials under which the known integrals persist
     #[arg(long)]
     pub potentials: bool,
     /// Find the rotors, and the magnetic and other terms linear in the velocities, under which the
-    /// known integrals survive
+    /// known integrals persist
     #[arg(long)]
     pub gyrostats: bool,
     /// Find a Poisson bracket with polynomial entries, for each known integral as the Hamiltonian,
     /// or for a given one: --poisson, --poisson=H
     #[arg(long, value_name = "HAMILTONIAN", num_args = 0..=1, require_equals = true, default_missing_value = "")]
     pub poisson: Option<String>,
-    /// End a count that needs more memory than this, in megabytes, and skip an ansatz that may
+    /// Limit of memory of one count, in megabytes; an ansatz that may need more is skipped
     #[arg(long, default_value_t = 500)]
     pub megabytes: u64,
-    /// End a count that takes longer than this, in seconds of an average machine, and skip an
-    /// ansatz that may
+    /// Limit of time of one count, in seconds of an average machine (measured in steps); an ansatz
+    /// that may need more is skipped
     #[arg(long, default_value = "60", value_parser = parse_seconds)]
     pub seconds: Duration,
     /// Stop after SECONDS and report partial results (also on Ctrl-C); the exit code is then 3. Own

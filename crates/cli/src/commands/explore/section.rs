@@ -43,14 +43,14 @@ pub struct SectionArgs {
     pub orbits: Option<usize>,
     #[command(flatten)]
     pub starts: Starts,
-    /// Follow the motion backwards in time
+    /// Integrate backwards in time
     #[arg(long)]
     pub backwards: bool,
     /// Colour the orbits by the value of this claim's formula, instead of one by one; `one` draws all
     /// in one colour
     #[arg(long, value_name = "CLAIM")]
     pub colour: Option<String>,
-    /// Follow the motions forwards and backwards in time, in two colours: attractor and repeller
+    /// Integrate forwards and backwards in time, in two colours: attractor and repeller
     #[arg(long, conflicts_with_all = ["backwards", "colour"])]
     pub both_ways: bool,
     /// Shade the density of the crossings in place of single dots, for attractors

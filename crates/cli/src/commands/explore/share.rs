@@ -15,10 +15,10 @@ use crate::parts::{Form, Identity, Job, check, save};
 #[derive(Clone, Debug, Default, Args)]
 pub struct Share {
     /// Compute part I of N alone, and write it to the folder --out as a file that `liouville merge`
-    /// reads. A part that is there already is kept
+    /// reads. An existing part is kept
     #[arg(long, value_name = "I/N", requires = "out")]
     pub part: Option<Part>,
-    /// Compute a part again that is there already
+    /// Compute the part even if it exists
     #[arg(long, requires = "part")]
     pub force: bool,
     /// Arguments of the command, without those that differ from part to part.
@@ -141,7 +141,7 @@ fn known(path: &Path, identity: &Identity, part: Part, form: &Form) -> Result<Kn
         }
         Err(error) => match error.kind() {
             ErrorKind::NotFound => Ok(Known::Missing),
-            ErrorKind::InvalidData => Ok(Known::Other("it is no text".to_string())),
+            ErrorKind::InvalidData => Ok(Known::Other("it is not a text file".to_string())),
             _ => {
                 let shown = path.display();
                 Err(format!("error: cannot read {shown}: {error}\nhelp: remove it"))

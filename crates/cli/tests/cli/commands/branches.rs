@@ -109,7 +109,7 @@ fn wrong_branches_are_refused_with_a_remedy() {
     refuse(&of(&["μ", "--from", "-2"]), "--from -2 is outside -1..3", "change the range");
     refuse(&of(&["μ", "--from", "2", "--to", "1"]), "is not below", "lower end");
     refuse(&of(&["μ", "--from", "1"]), "what varies is 0 at the start", "--set");
-    refuse(&of(&["μ", "--from", "low"]), "`low` is no number", "write one");
+    refuse(&of(&["μ", "--from", "low"]), "`low` is not a number", "write one");
     refuse(&of(&["μ", "--axes", "t"]), "has no time", "the period is always reported");
     refuse(&of(&["μ", "--step", "2"]), "from 1e-6 to 0.5", "--step");
     refuse(&with(&["--parameter", "μ"]), "there is no start", "give --start");

@@ -314,7 +314,7 @@ fn multipliers_are_told_with_their_errors() {
     }
     fails(
         &["motion", "periodic", &case, "--start", "1,1,20"],
-        "the period of the orbit is not known",
+        "the start does not determine a period",
     );
     fails(&["motion", "periodic", &case], "there is no start");
     // A separable system: closed orbits come in families.

@@ -250,7 +250,7 @@ fn other_files_under_the_name_of_a_part_do_not_count_as_it() {
         (fs::read(&foreign).expect("a part"), "it is of another job, or another part"),
         (titles, "its contents do not fit its digest"),
         (whole[..whole.len() / 2].to_vec(), "it is cut off"),
-        (vec![0xff, 0xfe], "it is no text"),
+        (vec![0xff, 0xfe], "it is not a text file"),
     ];
     fs::remove_file(foreign).expect("a file");
     for (bytes, reason) in others {

@@ -67,7 +67,7 @@ fn a_site_has_a_page_for_each_case_and_names_those_that_fail() {
     assert_eq!(links(&text("sub/map.html")), ["../index.html"], "the way back");
     assert_eq!(links(&text("50% good.html")), ["index.html"]);
     assert!(text("50% good.html").contains("Its motion"), "the page of `report`");
-    assert!(text("sub/map.html").contains("What the case claims"), "a map has verdicts");
+    assert!(text("sub/map.html").contains("Claims of the case"), "a map has verdicts");
     let (again, other) = site(&cases, "site-again", &["--threads", "1"]);
     again.code(2);
     assert!(files(&other) == made, "the same bytes with another number of threads");

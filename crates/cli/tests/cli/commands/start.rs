@@ -95,8 +95,8 @@ fn names_are_listed_with_their_meaning() {
 #[test]
 fn words_of_reports_are_explained() {
     liouville(&["explain", "proved"]).assert().code(0).stdout(contains("- proved: the residual"));
-    liouville(&["explain"]).assert().code(0).stdout(contains("witness\n"));
-    liouville(&["explain", "flibber"]).assert().code(2).stderr(contains("has no explanation"));
+    liouville(&["explain"]).assert().code(0).stdout(contains("Witness\n"));
+    liouville(&["explain", "flibber"]).assert().code(2).stderr(contains("no glossary entry"));
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! What commands say of inputs that textbooks suggest: values to give back, starts, levels of energy.
+//! Messages about inputs that textbooks suggest: values to give back, starts, levels of energy.
 
 use predicates::prelude::*;
 use predicates::str::contains;
@@ -52,7 +52,7 @@ fn claims_without_names_are_told_by_kind_and_statement() {
     let text = printed(&["check", &case]);
     assert!(text.contains("θ → -θ") && text.contains("energy, θ"), "{text}");
     let report = printed(&["report", &case]);
-    let claimed = report.split("What the case claims").nth(1).expect("the section");
+    let claimed = report.split("Claims of the case").nth(1).expect("the section");
     for words in ["reversor", "θ → -θ", "density", "independent", "as the file expects"] {
         assert!(claimed.contains(words), "{words}:\n{claimed}");
     }

@@ -1,4 +1,4 @@
-//! Where a formula as written has no value, `eval` and the exported programs have none.
+//! Formulas without a value: `eval` and the exported programs have none either.
 
 use std::fs;
 

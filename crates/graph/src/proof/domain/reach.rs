@@ -26,7 +26,7 @@ pub struct Reach<'r> {
     pub(super) changes: Changes,
 }
 
-/// When bounds last changed, and when each step was last looked at, in numbers of changes.
+/// Number of changes of bounds, at the last change of each and at the last visit of each step.
 #[derive(Default)]
 pub(super) struct Changes {
     pub count: u32,

@@ -153,7 +153,7 @@ fn values_of_several_parameters_that_belong_to_no_curve_are_found_and_proved() {
     let circle = "x² + y²";
     let (equations, grounds) = conditions(["a*y + b*x", "-x"], circle);
     assert_eq!(equations, ["a = 1 and b = 0"]);
-    assert!(grounds.contains("no other real values than those told"), "{grounds}");
+    assert!(grounds.contains("no real values other than those reported"), "{grounds}");
     assert!(grounds.ends_with("proved where a = 1 and b = 0"), "{grounds}");
     let (equations, grounds) = conditions(["(a - 1)*y + (b - 2)*x + (c - a)*x*y", "0*x"], "x");
     assert_eq!(equations, ["a = 1 and b = 2 and c = 1"]);
