@@ -11,12 +11,12 @@ use super::sum_of_squares::sum_of_squares;
 use crate::case::{Case, PlacedClaim};
 use crate::claim::{ClaimKind, Lyapunov};
 use crate::formula::{Formula, Type, exponent_text};
-use crate::graph::{Expr, record};
+use crate::graph::{Expr, Graph, record};
 use crate::mechanics::calculus::DualPoint;
 use crate::mechanics::{ParameterOrigin, Phase, SamplerSpec};
 use crate::number::ball::Ball;
 use crate::number::rational::Rational;
-use crate::proof::{NamedPolynomial, completed_squares, factored_sum, simpler_forms};
+use crate::proof::{NamedPolynomial, SimplerForm, completed_squares, factored_sum, simpler_forms};
 use crate::scalar::Scalar;
 
 /// Largest number of squares that are tried.
@@ -66,7 +66,7 @@ fn rates(
     let model = &case.model;
     let free = model.free_components();
     let (names, kept) = names(case);
-    let (graph, (growth, terms)) = record(free + model.dimension(), |inputs| {
+    let (graph, (growth, terms, quotients)) = record(free + model.dimension(), |inputs| {
         let of = |place: &Source| match place {
             Source::Zero => Expr::rational(&Rational::from(0)),
             Source::Input(index) => inputs[*index],
@@ -74,7 +74,10 @@ fn rates(
         };
         let parameters: Vec<Expr> = kept.iter().map(of).collect();
         let jet = DualPoint::new(Phase::new(model, &parameters, &inputs[free..]));
-        (own.growth(&jet), own.terms(&jet))
+        let factors = own.factors(&jet);
+        let terms: Vec<Expr> = factors.iter().map(|[slope, rate]| *slope * *rate).collect();
+        let quotients: Vec<Expr> = factors.iter().map(|[slope, rate]| *slope / *rate).collect();
+        (own.growth(&jet), terms, quotients)
     })?;
     // An ∫ has no name.
     if graph.inputs() > free + model.dimension() {
@@ -91,7 +94,9 @@ fn rates(
         .collect();
     let simpler = simpler_forms(&graph, growth, free, &names, &written_as_squares);
     let by_terms = factored_sum(&graph, &terms, free, &names, &written_as_squares);
-    let forms = simpler.into_iter().chain(by_terms);
+    let rates: Vec<String> = rate_names(case);
+    let by_rates = weighted_squares(&graph, &quotients, &rates, (free, &names));
+    let forms = simpler.into_iter().chain(by_terms).chain(by_rates);
     all.extend(forms.filter(|form| may_divide || !form.divides).map(|form| form.text));
     let squares = squares(case, function);
     let numbers = numbers(case);
@@ -115,6 +120,44 @@ fn rates(
     all.sort_by_key(String::len);
     all.truncate(MOST_RATES);
     Ok(all)
+}
+
+/// Names the rates of the components of the state.
+fn rate_names(case: &Case) -> Vec<String> {
+    let of = |(name, index): (&str, String)| match index.is_empty() {
+        true => format!("{name}'"),
+        false => format!("({name}'){index}"),
+    };
+    let variables = case.model.state.iter();
+    let each = variables.flat_map(|own| {
+        own.kind.indices().into_iter().map(|index| of((own.name.as_str(), index.to_string())))
+    });
+    each.collect()
+}
+
+/// Writes Σ (∂F/∂xₖ / xₖ') xₖ'², with the quotients in lowest terms.
+fn weighted_squares(
+    graph: &Graph,
+    quotients: &[Expr],
+    rates: &[String],
+    (free, names): (usize, &[String]),
+) -> Option<SimplerForm> {
+    let mut whole = SimplerForm { text: String::new(), divides: false };
+    let mut texts = Vec::new();
+    for (quotient, rate) in quotients.iter().zip(rates) {
+        if graph.is_nowhere_defined(*quotient) || is_zero(graph, *quotient) {
+            continue;
+        }
+        let form = factored_sum(graph, &[*quotient], free, names, &written_as_squares)?;
+        whole.divides |= form.divides;
+        texts.push(format!("({})*{rate}^2", form.text));
+    }
+    whole.text = texts.join(" + ");
+    (!texts.is_empty()).then_some(whole)
+}
+
+fn is_zero(graph: &Graph, value: Expr) -> bool {
+    graph.constant_value(value).is_some_and(Rational::is_zero)
 }
 
 /// Writes a polynomial as a sum of squares.

@@ -18,6 +18,7 @@ mod ends_of_ranges;
 mod expanded_levels;
 #[path = "../common/files.rs"]
 mod files;
+mod free_energies;
 mod functional_equations;
 mod geometry;
 mod golden;

@@ -1,8 +1,8 @@
 //! Sines and cosines of sums with arctangents.
 //!
 //! The cosine and the sine of E = R + Σ n_j atan u_j are the parts of the complex number e^(iR) Π z_j^n_j,
-//! z_j = (1 + i u_j)/√(1 + u_j²), at all real u_j. Multiples of π/12, as 4/3 atan 1 = π/3, are turned by numbers
-//! made of √2 and √3.
+//! z_j = (1 + i u_j)/√(1 + u_j²), at all real u_j. Multiples of π/60, as 4/3 atan 1 = π/3, are turned by numbers
+//! made of √2, √3, √5 and √(10 − 2√5).
 
 use rustc_hash::FxHashMap;
 
@@ -25,8 +25,8 @@ pub struct Angle {
     arctangents: Vec<(usize, i64)>,
     /// Places of the terms of R with their multiples.
     rest: Vec<(usize, Rational)>,
-    /// Number of twelfths of π.
-    twelfths: i64,
+    /// Number of sixtieths of π.
+    sixtieths: i64,
 }
 
 /// Lists the sums with arctangents whose sines and cosines some values need.
@@ -51,7 +51,7 @@ pub fn without_arctangents(graph: &Graph, values: &[Expr]) -> Result<(Graph, Vec
     })
 }
 
-/// Lists the arguments of sines and cosines that are sums to be written out. Twelfths of π are not, where π occurs in
+/// Lists the arguments of sines and cosines that are sums to be written out. Sixtieths of π are not, where π occurs in
 /// other parts, too: cos 2π/9 = 2 cos² π/9 − 1 is a relation between the sums as they are.
 fn taken_apart(graph: &Graph, values: &[Expr]) -> impl Iterator<Item = (usize, Angle)> {
     let all: Vec<(usize, Option<Angle>)> = arguments(graph, values)
@@ -92,7 +92,7 @@ pub fn arguments(graph: &Graph, values: &[Expr]) -> Vec<usize> {
 impl Angle {
     /// Takes a sum apart; `None` if it has too many terms.
     fn of(graph: &Graph, place: usize) -> Option<Self> {
-        let mut found = Self { arctangents: Vec::new(), rest: Vec::new(), twelfths: 0 };
+        let mut found = Self { arctangents: Vec::new(), rest: Vec::new(), sixtieths: 0 };
         let mut open = vec![(place, Rational::from(1))];
         while let Some((at, factor)) = open.pop() {
             if found.arctangents.len() + found.rest.len() + open.len() > MOST_TERMS {
@@ -116,10 +116,10 @@ impl Angle {
                 Step::Binary(BinaryOperation::Mul, a, b) if number(b).is_some() => {
                     open.push((a, &factor * number(b)?));
                 }
-                // atan 1 = π/4, and a whole turn has 24 twelfths of π.
+                // atan 1 = π/4, and a whole turn has 120 sixtieths of π.
                 Step::Unary(UnaryFunction::Atan, a) if number(a).is_some_and(Rational::is_one) => {
-                    match (&factor * &Rational::from(3)).to_integer() {
-                        Some(twelfths) => found.twelfths = (found.twelfths + twelfths % 24) % 24,
+                    match (&factor * &Rational::from(15)).to_integer() {
+                        Some(own) => found.sixtieths = (found.sixtieths + own % 120) % 120,
                         None => found.rest.push((at, factor)),
                     }
                 }
@@ -138,7 +138,7 @@ impl Angle {
 
     /// Whether it contains a broken part of a quarter turn.
     fn has_broken_part(&self) -> bool {
-        self.twelfths % 6 != 0
+        self.sixtieths % 30 != 0
     }
 
     /// Records the sine or the cosine, from the values at places.
@@ -152,7 +152,6 @@ impl Angle {
             }
             point = [angle.apply(UnaryFunction::Cos), angle.apply(UnaryFunction::Sin)];
         }
-        let turned = |[a, b]: [Expr; 2], [c, s]: [Expr; 2]| [a * c - b * s, a * s + b * c];
         for (place, multiple) in &self.arctangents {
             let u = values[*place]?;
             let u = if *multiple < 0 { -u } else { u };
@@ -167,7 +166,44 @@ impl Angle {
                 point = turned(point, [one / root, u / root]);
             }
         }
-        Some(turned(point, twelfths_of_pi(self.twelfths))[usize::from(sine)])
+        Some(turned(point, sixtieths_of_pi(self.sixtieths))[usize::from(sine)])
+    }
+}
+
+/// Turns a point of the circle by the angle of another.
+fn turned([a, b]: [Expr; 2], [c, s]: [Expr; 2]) -> [Expr; 2] {
+    [a * c - b * s, a * s + b * c]
+}
+
+/// Records the cosine and the sine of some sixtieths of π.
+fn sixtieths_of_pi(count: i64) -> [Expr; 2] {
+    // count = 5 twelfths + 12 fifths, as 5·5 = 1 mod 12.
+    let twelfths = (5 * count).rem_euclid(12);
+    match (count - 5 * twelfths) / 12 {
+        0 => twelfths_of_pi(twelfths),
+        fifths => turned(twelfths_of_pi(twelfths), fifths_of_pi(fifths)),
+    }
+}
+
+/// Records the cosine and the sine of some fifths of π.
+fn fifths_of_pi(count: i64) -> [Expr; 2] {
+    let number = |above: i64, below: i64| Expr::rational(&Rational::new(above, below));
+    let root = number(5, 1).apply(UnaryFunction::Sqrt);
+    // 4 sin π/5; with √(10 + 2√5) = 8 sin 2π/5 it would make two roots that depend on each other.
+    let side = (number(10, 1) - root * number(2, 1)).apply(UnaryFunction::Sqrt);
+    let first = [(root + number(1, 1)) * number(1, 4), side * number(1, 4)];
+    let second =
+        [(root - number(1, 1)) * number(1, 4), side * (root + number(1, 1)) * number(1, 8)];
+    let [c, s] = match count.rem_euclid(5) {
+        0 => [number(1, 1), number(0, 1)],
+        1 => first,
+        2 => second,
+        3 => [-second[0], second[1]],
+        _ => [-first[0], first[1]],
+    };
+    match count.rem_euclid(10) < 5 {
+        true => [c, s],
+        false => [-c, -s],
     }
 }
 
@@ -199,16 +235,16 @@ mod tests {
     use crate::number::float::Float;
 
     #[test]
-    fn twelfths_of_pi_are_those_of_the_circle() {
-        for count in -30..50i64 {
-            let (graph, point) = record(0, |_| twelfths_of_pi(count)).expect("records");
+    fn sixtieths_of_pi_are_those_of_the_circle() {
+        for count in -130..130i64 {
+            let (graph, point) = record(0, |_| sixtieths_of_pi(count)).expect("records");
             let tape = Tape::new(&graph, &point);
             let mut evaluator = Evaluator::new(&tape, Float::<1>);
             evaluator.run(&[]);
-            let angle = count as f64 * std::f64::consts::PI / 12.0;
+            let angle = count as f64 * std::f64::consts::PI / 60.0;
             let found: Vec<f64> = evaluator.outputs().map(|value| value[0]).collect();
-            assert!((found[0] - angle.cos()).abs() < 1e-13, "cos {count}π/12");
-            assert!((found[1] - angle.sin()).abs() < 1e-13, "sin {count}π/12");
+            assert!((found[0] - angle.cos()).abs() < 1e-13, "cos {count}π/60");
+            assert!((found[1] - angle.sin()).abs() < 1e-13, "sin {count}π/60");
         }
     }
 

@@ -93,7 +93,7 @@ mod void;
 
 pub use angles::{arguments as angle_arguments, without_arctangents};
 pub use bounds::InputDistribution;
-pub use collected::{NamedPolynomial, reduced_value, simpler_forms};
+pub use collected::{NamedPolynomial, SimplerForm, reduced_value, simpler_forms};
 pub use combination::{combination_certificate, combinations};
 pub use coprime::{are_coprime, are_polynomials, is_single_valued};
 pub use determined::Determination;

@@ -206,3 +206,128 @@ impl Need {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use num_dual::DualNum;
+
+    use super::*;
+    use crate::graph::{Evaluator, Tape};
+    use crate::number::float::Float;
+    use crate::number::prime::Modulus;
+    use crate::proof::ProofRng;
+
+    fn number(text: &str) -> Expr {
+        Expr::rational(&text.parse().expect("a number"))
+    }
+
+    /// The sign of a value over ranges, by slopes.
+    fn sign(ends: &[(&str, &str)], build: impl FnOnce(&[Expr]) -> Expr) -> Option<bool> {
+        let (graph, value) = record(ends.len(), build).expect("records");
+        let end = |text: &str| text.parse().expect("a number");
+        let inputs: Vec<Extent> =
+            ends.iter().map(|(low, high)| Extent::between(&end(low), &end(high))).collect();
+        let classes = Classes::default();
+        let region = Region { graph: &graph, inputs: &inputs, facts: &[], classes: &classes };
+        region.sign_by_slopes(graph.place(value))
+    }
+
+    #[test]
+    fn growth_from_zero_gives_a_sign() {
+        let one = [("-1", "1")];
+        assert_eq!(sign(&one, |x| x[0] * (x[0] - x[0].sin())), Some(true));
+        assert_eq!(sign(&one, |x| x[0] * (x[0] - x[0].sin() * number("2"))), None, "falls at 0");
+        assert_eq!(sign(&one, |x| x[0] * (x[0] - x[0].sin() + number("0.1"))), None, "0.1 at 0");
+        assert_eq!(sign(&one, |x| -x[0] * (x[0].exp() - 1.0 + x[0])), Some(false));
+        let tanh = |x: Expr| (x.exp() - (-x).exp()) / (x.exp() + (-x).exp());
+        assert_eq!(sign(&one, |x| tanh(x[0]) * (x[0] + x[0].atan())), Some(true), "no factor is x");
+        let all = [("-1", "1"), ("1/2", "1")];
+        assert_eq!(sign(&all, |x| x[0] * ((x[0] * x[1]).exp() - 1.0) * x[1]), Some(true));
+        let all = [("-1", "1"), ("-1/2", "1")];
+        assert_eq!(sign(&all, |x| x[0] * ((x[0] * x[1]).exp() - 1.0)), None, "of both signs");
+    }
+
+    #[test]
+    fn differences_have_the_sign_of_growth() {
+        let both = [("-2", "2"), ("1/2", "3")];
+        let cube = |x: Expr| x * x * x + x - x.sin();
+        assert_eq!(sign(&both, |x| (x[0] - x[1]) * (cube(x[0]) - cube(x[1]))), Some(true));
+        assert_eq!(sign(&both, |x| (x[1] - x[0]) * (cube(x[0]) - cube(x[1]))), Some(false));
+        let falls = |x: Expr| x * x * x - x;
+        assert_eq!(sign(&both, |x| (x[0] - x[1]) * (falls(x[0]) - falls(x[1]))), None);
+        // x³ − 3x grows for x > 1, but not on the way there from 0.
+        let range = [("6/5", "3/2")];
+        assert_eq!(sign(&range, |x| x[0] * (x[0] * x[0] - 3.0) * x[0] * x[0]), Some(false));
+        let wrong = |x: &[Expr]| x[0] * (x[0] * x[0] * x[0] - x[0] * number("3"));
+        assert_ne!(sign(&range, wrong), Some(true));
+    }
+
+    #[test]
+    fn a_pole_on_the_way_says_nothing() {
+        // 1 + 1/(x − 1) falls wherever it exists, is 0 at 0, and is positive for x > 1.
+        let falls = |x: &[Expr]| x[0] * ((x[0] - 1.0).recip() + 1.0);
+        assert_eq!(sign(&[("-1", "1/2")], falls), Some(false));
+        assert_eq!(sign(&[("-1", "3")], falls), None);
+        assert_eq!(sign(&[("3/2", "3")], falls), Some(true), "by bounds alone");
+        // The root has no value between −1 and 1.
+        let root = |x: &[Expr]| x[0] * (x[0] + (x[0] * x[0] - 1.0).sqrt() * 0.0 + x[0].modulus());
+        assert_eq!(sign(&[("-2", "2")], root), None);
+    }
+
+    #[test]
+    fn no_random_product_has_another_sign() {
+        let (mut rng, modulus) = (ProofRng::new(7, 0), Modulus::new((1 << 61) - 1));
+        let mut draw = |n: usize| (rng.element(&modulus) % n as u64) as usize;
+        let mut known = 0;
+        for round in 0..1000 {
+            let operations: Vec<[usize; 3]> =
+                (0..5).map(|k| [draw(10), draw(6 + k), draw(6 + k)]).collect();
+            let value = |x: &[Expr]| {
+                let numbers = ["1", "2", "1/2"].map(number);
+                let mut own: Vec<Expr> = x.iter().copied().chain(numbers).collect();
+                for [operation, a, b] in &operations {
+                    let (a, b) = (own[*a], own[*b]);
+                    own.push(match operation {
+                        0 | 1 => a + b,
+                        2 | 3 => a - b,
+                        4 => a * b,
+                        5 => a.exp(),
+                        6 => a.sin(),
+                        7 => a.recip(),
+                        8 => (a + number("3")).ln(),
+                        _ => a.modulus(),
+                    });
+                }
+                own[own.len() - 1]
+            };
+            let (line, is_difference) = (draw(3), draw(2) == 0);
+            let (graph, value) = record(3, |x| {
+                let begin = if is_difference { x[(line + 1) % 3] } else { number("0") };
+                let mut moved = x.to_vec();
+                moved[line] = begin;
+                (x[line] - begin) * (value(x) - value(&moved))
+            })
+            .expect("records");
+            let ends = [("-1", "1"), ("1/2", "3/2"), ("-1/2", "2")];
+            let end = |text: &str| text.parse().expect("a number");
+            let inputs = ends.map(|(low, high)| Extent::between(&end(low), &end(high)));
+            let classes = Classes::default();
+            let region = Region { graph: &graph, inputs: &inputs, facts: &[], classes: &classes };
+            let Some(sign) = region.sign_by_slopes(graph.place(value)) else { continue };
+            known += 1;
+            let tape = Tape::new(&graph, &[value]);
+            let mut evaluator = Evaluator::new(&tape, Float::<1>);
+            for _ in 0..40 {
+                let at = inputs.map(|own| {
+                    let [low, high] = own.ends().expect("finite");
+                    [low + (high - low) * draw(1 << 20) as f64 / (1 << 20) as f64]
+                });
+                evaluator.run(&at);
+                let found = evaluator.output(0)[0];
+                let is_right = if sign { found > -1e-9 } else { found < 1e-9 };
+                assert!(is_right || found.is_nan(), "round {round}: {found} at {at:?}");
+            }
+        }
+        assert!(known > 100, "{known} signs");
+    }
+}
