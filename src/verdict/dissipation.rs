@@ -16,7 +16,9 @@ use crate::mechanics::calculus::DualPoint;
 use crate::mechanics::{ParameterOrigin, Phase, SamplerSpec};
 use crate::number::ball::Ball;
 use crate::number::rational::Rational;
-use crate::proof::{NamedPolynomial, SimplerForm, completed_squares, factored_sum, simpler_forms};
+use crate::proof::{
+    NamedPolynomial, SimplerForm, completed_squares, factored_sum, simpler_forms, volterra_sum,
+};
 use crate::scalar::Scalar;
 
 /// Largest number of squares that are tried.
@@ -66,19 +68,20 @@ fn rates(
     let model = &case.model;
     let free = model.free_components();
     let (names, kept) = names(case);
-    let (graph, (growth, terms, quotients)) = record(free + model.dimension(), |inputs| {
-        let of = |place: &Source| match place {
-            Source::Zero => Expr::rational(&Rational::from(0)),
-            Source::Input(index) => inputs[*index],
-            Source::Opposite(index) => -inputs[*index],
-        };
-        let parameters: Vec<Expr> = kept.iter().map(of).collect();
-        let jet = DualPoint::new(Phase::new(model, &parameters, &inputs[free..]));
-        let factors = own.factors(&jet);
-        let terms: Vec<Expr> = factors.iter().map(|[slope, rate]| *slope * *rate).collect();
-        let quotients: Vec<Expr> = factors.iter().map(|[slope, rate]| *slope / *rate).collect();
-        (own.growth(&jet), terms, quotients)
-    })?;
+    let (graph, (growth, factors, terms, quotients)) =
+        record(free + model.dimension(), |inputs| {
+            let of = |place: &Source| match place {
+                Source::Zero => Expr::rational(&Rational::from(0)),
+                Source::Input(index) => inputs[*index],
+                Source::Opposite(index) => -inputs[*index],
+            };
+            let parameters: Vec<Expr> = kept.iter().map(of).collect();
+            let jet = DualPoint::new(Phase::new(model, &parameters, &inputs[free..]));
+            let factors = own.factors(&jet);
+            let terms: Vec<Expr> = factors.iter().map(|[slope, rate]| *slope * *rate).collect();
+            let quotients: Vec<Expr> = factors.iter().map(|[slope, rate]| *slope / *rate).collect();
+            (own.growth(&jet), factors, terms, quotients)
+        })?;
     // An ∫ has no name.
     if graph.inputs() > free + model.dimension() {
         return Ok(Vec::new());
@@ -96,7 +99,9 @@ fn rates(
     let by_terms = factored_sum(&graph, &terms, free, &names, &written_as_squares);
     let rates: Vec<String> = rate_names(case);
     let by_rates = weighted_squares(&graph, &quotients, &rates, (free, &names));
-    let forms = simpler.into_iter().chain(by_terms).chain(by_rates);
+    let slopes: Vec<Expr> = factors.iter().map(|[slope, _]| *slope).collect();
+    let by_rest = volterra_sum(&graph, growth, &slopes, free, &names);
+    let forms = simpler.into_iter().chain(by_terms).chain(by_rates).chain(by_rest);
     all.extend(forms.filter(|form| may_divide || !form.divides).map(|form| form.text));
     let squares = squares(case, function);
     let numbers = numbers(case);

@@ -154,3 +154,19 @@ fn fields_that_grow_with_their_variable_lead_to_rest() {
         assert!(matches!(found, Refuted | Undecided), "{rate}: {remark}");
     }
 }
+
+#[test]
+fn functions_of_volterra_fall_in_models_of_infections() {
+    let infection = |rest: &str| {
+        format!(
+            "[parameters]\nL = '1..2'\nd = '0.1..0.5'\nb = '1..2'\nh = '0.5..1'\np = '2..3'\nc = '0.5..1'\n\
+             [state]\nT = '0.05..2'\nI = '0.05..2'\nv = '0.05..5'\n[let]\nT0 = 'h*c/(b*p)'\n\
+             I0 = '{rest}'\nV0 = 'p*I0/c'\n[field]\nT = 'L - d*T - b*T*v'\nI = 'b*T*v - h*I'\nv = 'p*I - c*v'"
+        )
+    };
+    let function = |share: &str| format!("T - T0*ln(T) + I - I0*ln(I) + {share}*(v - V0*ln(v))");
+    let remark = is(Proved, &infection("L/h - d*c/(b*p)"), &function("h/p"));
+    assert!(remark.contains("1 - ln("), "{remark}");
+    is(Refuted, &infection("L/h - d*c/(b*p)"), &function("p/h"));
+    is(Refuted, &infection("L/h"), &function("h/p"));
+}

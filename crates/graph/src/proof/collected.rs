@@ -139,6 +139,25 @@ pub(super) struct ReadValue {
 }
 
 impl ReadValue {
+    /// Reads a quotient of polynomials in inputs, whose variables are their numbers.
+    pub(super) fn of_inputs(
+        graph: &Graph,
+        value: Expr,
+        first: usize,
+        names: &[String],
+    ) -> Option<Self> {
+        let input = |_: usize, step: Step<'_>| match step {
+            Step::Input(number) => u32::try_from(number).ok().map(Polynomial::variable),
+            _ => None,
+        };
+        Some(Self {
+            whole: reduced(fraction(graph, graph.place(value), &input)?)?,
+            places: Vec::new(),
+            names: names.to_vec(),
+            is_own: (0..names.len()).map(|number| number >= first).collect(),
+        })
+    }
+
     pub(super) fn of(graph: &Graph, value: Expr, first: usize, names: &[String]) -> Option<Self> {
         let (places, whole) = read_fraction(graph, value)?;
         let of_state = |place: &usize| {

@@ -90,6 +90,7 @@ mod tower;
 mod trial;
 mod vanishing;
 mod void;
+mod volterra;
 
 pub use angles::{arguments as angle_arguments, without_arctangents};
 pub use bounds::InputDistribution;
@@ -122,6 +123,7 @@ pub use rewrite::conditions;
 pub use rng::{ProofRng, ProofStream};
 pub use root_numbers::root_numbers;
 pub use trial::{Certificate, fewest};
+pub use volterra::volterra_sum;
 
 use rayon::prelude::*;
 

@@ -63,6 +63,7 @@ fn of_step(
             false => Extent::POSITIVE,
         },
     };
+    let extent = step.sign.map_or(extent, |sign| extent.within(sign));
     match step.is_zero {
         true => extent.common(Extent::ZERO),
         false => extent,

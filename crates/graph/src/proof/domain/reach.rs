@@ -1,8 +1,9 @@
 //! The values that a question about a region needs, laid out for passes over them.
 
-use crate::graph::Step;
+use crate::graph::{Graph, Step};
 use crate::number::rational::Rational;
 use crate::number::{BinaryOperation, UnaryFunction};
+use crate::proof::alike::sign_above_logarithm;
 use crate::proof::extent::Extent;
 use crate::proof::fact::SignFact;
 
@@ -95,6 +96,8 @@ pub(super) struct ReachedStep<'r> {
     pub is_nonzero: bool,
     /// Index of the sign of a product.
     pub signed: Option<u32>,
+    /// The sign of a sum with a logarithm.
+    pub sign: Option<bool>,
 }
 
 impl<'r> Reach<'r> {
@@ -134,6 +137,14 @@ impl<'r> Reach<'r> {
                         signed.push(known);
                         u32::try_from(signed.len() - 1).ok()
                     })
+                }
+                _ => None,
+            },
+            sign: match graph.step(*place) {
+                Step::Binary(BinaryOperation::Add | BinaryOperation::Sub, a, b)
+                    if is_logarithm(graph, a) || is_logarithm(graph, b) =>
+                {
+                    sign_above_logarithm(graph, *place)
                 }
                 _ => None,
             },
@@ -177,6 +188,17 @@ impl<'r> Reach<'r> {
     /// Lists the reached inputs: number of the value, and index of the input.
     pub fn inputs(&self) -> &[(usize, usize)] {
         &self.inputs
+    }
+}
+
+/// Whether a value is a multiple of a logarithm.
+fn is_logarithm(graph: &Graph, place: usize) -> bool {
+    let is_own = |place: usize| matches!(graph.step(place), Step::Unary(UnaryFunction::Ln, _));
+    match graph.step(place) {
+        Step::Unary(UnaryFunction::Ln, _) => true,
+        Step::Unary(UnaryFunction::Neg, a) => is_own(a),
+        Step::Binary(BinaryOperation::Mul, a, b) => is_own(a) || is_own(b),
+        _ => false,
     }
 }
 
