@@ -122,7 +122,7 @@ fn integrals_need_that_the_motion_stays() {
 fn of_linkage(identity: &str) -> Verdict {
     let text = format!(
         "title = 't'\nsystem = 'nonholonomic'\n[parameters]\na = '1..1.2'\nb = '2..2.2'\nc = '2..2.2'\nd = '2..2.2'\n\
-         [state]\nα = '-3..3'\nβ = '-3..3'\nγ = '-3..3'\n\"α'\" = '-2..2'\n\"β'\" = '-2..2'\n\"γ'\" = '-2..2'\n\
+         [state]\n\"α\" = '-3..3'\n\"β\" = '-3..3'\n\"γ\" = '-3..3'\n\"α'\" = '-2..2'\n\"β'\" = '-2..2'\n\"γ'\" = '-2..2'\n\
          [lagrangian]\nkinetic = \"(α'^2 + β'^2 + γ'^2)/2\"\n\
          constraints = ['a*cos(α) + b*cos(β) - c*cos(γ) = d', 'a*sin(α) + b*sin(β) - c*sin(γ) = 0']\n\
          [[claim]]\nidentity = \"{identity}\"\nexpect = 'open'\n"

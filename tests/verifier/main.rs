@@ -37,6 +37,7 @@ mod listed_levels;
 mod listed_powers;
 mod local;
 mod lone_states;
+mod lowest_terms;
 mod many_variables;
 mod masses;
 mod merge;

@@ -341,17 +341,18 @@ mod tests {
 
     use super::*;
     use crate::graph::{Expr, record};
-    use crate::proof::simpler_forms;
+    use crate::proof::normal::normalised;
+    use crate::scalar::Scalar;
 
     /// Writes a value of k, x, y, z, of which the first is a parameter.
     fn balanced(build: impl FnOnce(&[Expr]) -> Expr) -> Option<String> {
         let names = ["k", "x", "y", "z"].map(String::from);
         let (graph, value) = record(4, build).expect("records");
-        let forms = simpler_forms(&graph, value, 1, &names, &|_| None);
-        forms
-            .into_iter()
-            .map(|form| form.text)
-            .find(|text| text.matches("ln").count() % 2 == 0 && text.starts_with("-("))
+        let (graph, value) = match normalised(&graph, &[value]) {
+            Some((graph, mut values)) => (graph, values.pop()?),
+            None => (graph, value),
+        };
+        balanced_sum(&ReadValue::of(&graph, value, 1, &names)?, &graph)
     }
 
     #[test]
