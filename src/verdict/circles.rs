@@ -12,6 +12,8 @@ const MOST_MULTIPLE: i64 = 6;
 /// Largest number of terms of an argument.
 const MOST_TERMS: usize = 12;
 
+/// Multiples of values, by place.
+type Terms = Vec<(usize, Rational)>;
 /// Whole multiples of angles, by number.
 type Sum = Vec<(usize, i64)>;
 
@@ -26,7 +28,7 @@ pub(super) struct Circles {
 impl Circles {
     /// Finds the angles of the sines and cosines at some places.
     pub fn of(graph: &Graph, places: impl Iterator<Item = usize>) -> Self {
-        let mut arguments: Vec<(usize, bool, Vec<(usize, Rational)>)> = Vec::new();
+        let mut arguments: Vec<(usize, bool, Terms)> = Vec::new();
         for place in places {
             let (is_sine, argument) = match graph.step(place) {
                 Step::Unary(UnaryFunction::Sin, a) => (true, a),
@@ -115,7 +117,7 @@ fn common(first: &Rational, second: &Rational) -> Option<Rational> {
 }
 
 /// A value as a sum of multiples of values that are no sums.
-fn terms(graph: &Graph, place: usize) -> Option<Vec<(usize, Rational)>> {
+fn terms(graph: &Graph, place: usize) -> Option<Terms> {
     let mut found: BTreeMap<usize, Rational> = BTreeMap::new();
     let mut open = vec![(place, Rational::from(1))];
     let number = |place: usize| match graph.step(place) {

@@ -34,7 +34,7 @@ pub(super) fn normalised(graph: &Graph, values: &[Expr]) -> Option<(Graph, Vec<E
             Step::Unary(UnaryFunction::Ln, a) => {
                 let mut sum = Expr::rational(&Rational::from(0));
                 for (factor, power) in factors(graph, a)? {
-                    sum = sum + own[factor]?.apply(UnaryFunction::Ln) * Expr::rational(&power);
+                    sum += own[factor]?.apply(UnaryFunction::Ln) * Expr::rational(&power);
                 }
                 Some(sum)
             }
