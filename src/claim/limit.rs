@@ -144,6 +144,12 @@ impl Statement for Limit {
         let uses_motion = model.has_quantities(&self.function);
         let functions = if uses_motion { model.dynamics() } else { Vec::new() };
         let mut presence = Vec::new();
+        // Where the rates are taken at 0, what the equations of motion divide by there is not 0.
+        if model.has_rates(&self.function)
+            && self.expanded(&jet.phase, &at, &self.function).iter().any(Option::is_none)
+        {
+            presence.extend(at.hidden_in_motion(&[]));
+        }
         for formula in functions.into_iter().chain([&self.function]) {
             let expanded = self.expanded(&jet.phase, &at, formula);
             let values = at.evaluate_literally(formula).components();

@@ -49,6 +49,15 @@ impl Lyapunov {
         }
     }
 
+    /// Computes ∂F/∂xₖ and xₖ', whose products are the terms of L_vF; none for a map.
+    pub(crate) fn factors(&self, jet: &DualPoint<'_, Expr>) -> Vec<[Expr; 2]> {
+        if jet.phase.model().system.is_map() {
+            return Vec::new();
+        }
+        let slopes = jet.gradients(&self.function).concat();
+        slopes.into_iter().zip(jet.phase.field()).map(|(slope, rate)| [slope, *rate]).collect()
+    }
+
     /// Returns the rate, and Σ|∂F/∂xₖ·xₖ'|, or |F∘Φ| + |F|.
     fn excess(&self, jet: &DualPoint<'_, Expr>) -> Excess {
         let phase = &jet.phase;
@@ -57,11 +66,7 @@ impl Lyapunov {
                 let ends = [jet.image().scalar(&self.function), phase.scalar(&self.function)];
                 ends.map(Scalar::modulus).into_iter().sum()
             }
-            false => {
-                let slopes = jet.gradients(&self.function).concat();
-                let terms = slopes.into_iter().zip(phase.field());
-                terms.map(|(slope, rate)| (slope * *rate).modulus()).sum()
-            }
+            false => self.factors(jet).iter().map(|[slope, rate]| (*slope * *rate).modulus()).sum(),
         };
         let value = self.rate.as_ref().map_or_else(|| self.growth(jet), |rate| phase.scalar(rate));
         Excess { value, scale }

@@ -67,7 +67,11 @@ impl Phase<'_, Expr> {
         if has_moduli(written) {
             return self.motion_as_written();
         }
-        let kept = [written, self.field()].concat();
+        // Claims that do not contain the rates of a Lagrangian say nothing where there are none.
+        let kept = match system {
+            System::Lagrangian(_) => written.to_vec(),
+            _ => [written, self.field()].concat(),
+        };
         let hidden = |divisors: Vec<Expr>| {
             let inverse = |divisor: Expr| literally(|| divisor.apply(UnaryFunction::Recip));
             left_out(&kept, &divisors.into_iter().map(inverse).collect::<Vec<Expr>>())

@@ -158,8 +158,8 @@ impl Model {
             if let Ok(read) = Formula::parse(text, &named.vocabulary) {
                 let reach =
                     named.vocabulary.reach(&read).map_or(Dependence::Parameters, |e| e.reach);
-                let meaning = Meaning::Abbreviation(named.abbreviations.len());
-                named.vocabulary.add(&entry.name, meaning, read.value_type(), reach);
+                let index = named.abbreviations.len();
+                named.vocabulary.define(&entry.name, index, &read, reach);
                 named.abbreviations.push(read);
             }
         }

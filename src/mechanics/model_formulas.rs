@@ -2,6 +2,7 @@
 
 use super::level_equation::LevelFunction;
 use super::model::{Model, ParameterOrigin};
+use super::quantity::Quantity;
 use super::vocabulary::Meaning;
 use crate::formula::{Formula, Symbol};
 
@@ -102,6 +103,19 @@ impl Model {
             Meaning::Quantity(_) => true,
             Meaning::Abbreviation(index) => {
                 self.abbreviations.get(index).is_some_and(|own| self.has_quantities(own))
+            }
+            Meaning::Parameter(_) | Meaning::State(_) => false,
+        })
+    }
+
+    /// Whether a formula contains rates that the equations of motion give, or reactions.
+    pub fn has_rates(&self, formula: &Formula) -> bool {
+        formula.symbols().any(|symbol| match self.vocabulary.entry(symbol).meaning {
+            Meaning::Quantity(quantity) => {
+                matches!(quantity, Quantity::Rate(_) | Quantity::Reaction(_))
+            }
+            Meaning::Abbreviation(index) => {
+                self.abbreviations.get(index).is_some_and(|own| self.has_rates(own))
             }
             Meaning::Parameter(_) | Meaning::State(_) => false,
         })

@@ -3,6 +3,7 @@
 //!
 //! docs/soundness-levels.md, "Combinations of the equations", states the theorem.
 
+use super::circles::Circles;
 use super::claim_state::{ClaimState, are_zero};
 use super::evidence::{Method, Proof, Verdict};
 use super::judging::Judging;
@@ -96,32 +97,43 @@ impl Judging<'_> {
         let graph = self.graph;
         let all = [values, level].concat();
         let reached = graph.reached(all.iter().copied());
-        let symbols: Vec<usize> = (0..reached.len())
-            .filter(|place| reached[*place] && is_symbol(graph.step(*place)))
+        let places = || (0..reached.len()).filter(|place| reached[*place]);
+        let circles = Circles::of(graph, places());
+        let symbols: Vec<usize> = places()
+            .filter(|place| is_symbol(graph.step(*place)) && !circles.contains(*place))
             .collect();
         let multipliers = multipliers(graph, &reached, &symbols);
-        if level.is_empty() || (multipliers.len() + 1) * level.len() > MOST_PRODUCTS {
+        // Sines, cosines, and their products with parameters.
+        let parameters = self.case.model.free_components().min(graph.inputs());
+        let count = multipliers.len() + 2 * circles.count() + 1;
+        let all = count + 2 * circles.count() * parameters;
+        if level.is_empty() || count * level.len() > MOST_PRODUCTS {
             return Ok(None);
         }
+        let parameters = if all * level.len() > MOST_PRODUCTS { 0 } else { parameters };
         let first = graph.inputs();
-        let (graph, made) = record(first + symbols.len(), |inputs| {
+        let inputs = first + symbols.len() + circles.count();
+        let (graph, made) = record(inputs, |inputs| {
+            let (inputs, turns) = inputs.split_at(first + symbols.len());
+            let points = Circles::points(turns);
+            let turned = circles.values(&points)?;
             let given = |place: usize| {
-                let found = symbols.binary_search(&place).ok()?;
-                inputs.get(first + found).copied()
+                let symbol = || inputs.get(first + symbols.binary_search(&place).ok()?).copied();
+                turned.get(&place).copied().or_else(symbol)
             };
             let made = graph.repeated_with(&reached, &inputs[..first], given);
             let at = |value: &Expr| made[graph.place(*value)];
             let values: Option<Vec<Expr>> = values.iter().map(at).collect();
-            let mut basis: Vec<Expr> = level.iter().map(at).collect::<Option<_>>()?;
-            for place in &multipliers {
-                let multiplier = made[*place]?;
-                basis.extend(
-                    level
-                        .iter()
-                        .map(|own| Some(multiplier * at(own)?))
-                        .collect::<Option<Vec<Expr>>>()?,
-                );
+            let own: Vec<Expr> = level.iter().map(at).collect::<Option<_>>()?;
+            let mut factors: Vec<Expr> =
+                multipliers.iter().map(|place| made[*place]).collect::<Option<_>>()?;
+            for point in points.concat() {
+                factors.push(point);
+                factors.extend(inputs[..parameters].iter().map(|parameter| point * *parameter));
             }
+            let products =
+                factors.iter().flat_map(|factor| own.iter().map(move |own| *factor * *own));
+            let basis: Vec<Expr> = own.iter().copied().chain(products).collect();
             Some((values?, basis))
         })?;
         let Some((values, basis)) = made else { return Ok(None) };

@@ -16,7 +16,7 @@ use crate::claim::{Assumption, Condition, Need};
 use crate::graph::{Expr, Fault, Graph, record};
 use crate::mechanics::calculus::DualPoint;
 use crate::mechanics::{Phase, combinations};
-use crate::proof::{Extent, GroupOutcome, Prover, is_nowhere_zero, sign};
+use crate::proof::{Extent, GroupOutcome, Prover, is_nowhere_zero, reduced_value, sign};
 use crate::scalar::Scalar;
 
 /// A condition that is not met, or not known to be.
@@ -275,7 +275,13 @@ impl Judging<'_> {
         let extents = sampler.extents();
         for fixed in combinations {
             let (graph, groups) = sampler.compose(self.graph, &[vec![value]], &fixed)?;
-            if !groups.concat().into_iter().all(|value| test(&graph, &extents, value)) {
+            // A quotient in lowest terms is the same value wherever the other exists.
+            let holds = |value: Expr| {
+                let reduced = || reduced_value(&graph, value);
+                test(&graph, &extents, value)
+                    || reduced().is_some_and(|(graph, value)| test(&graph, &extents, value))
+            };
+            if !groups.concat().into_iter().all(holds) {
                 return Ok(false);
             }
         }

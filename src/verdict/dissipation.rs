@@ -11,16 +11,18 @@ use super::sum_of_squares::sum_of_squares;
 use crate::case::{Case, PlacedClaim};
 use crate::claim::{ClaimKind, Lyapunov};
 use crate::formula::{Formula, Type, exponent_text};
-use crate::graph::{Expr, record};
+use crate::graph::{Expr, Graph, record};
 use crate::mechanics::calculus::DualPoint;
 use crate::mechanics::{ParameterOrigin, Phase, SamplerSpec};
 use crate::number::ball::Ball;
 use crate::number::rational::Rational;
-use crate::proof::{NamedPolynomial, completed_squares, simpler_forms};
+use crate::proof::{
+    NamedPolynomial, SimplerForm, completed_squares, factored_sum, simpler_forms, volterra_sum,
+};
 use crate::scalar::Scalar;
 
-/// Largest number of vectors whose squares are tried.
-const MOST_VECTORS: usize = 32;
+/// Largest number of squares that are tried.
+const MOST_SQUARES: usize = 32;
 /// Largest number of rates that are judged for one claim.
 const MOST_RATES: usize = 6;
 
@@ -66,16 +68,20 @@ fn rates(
     let model = &case.model;
     let free = model.free_components();
     let (names, kept) = names(case);
-    let (graph, growth) = record(free + model.dimension(), |inputs| {
-        let of = |place: &Source| match place {
-            Source::Zero => Expr::rational(&Rational::from(0)),
-            Source::Input(index) => inputs[*index],
-            Source::Opposite(index) => -inputs[*index],
-        };
-        let parameters: Vec<Expr> = kept.iter().map(of).collect();
-        let jet = DualPoint::new(Phase::new(model, &parameters, &inputs[free..]));
-        own.growth(&jet)
-    })?;
+    let (graph, (growth, factors, terms, quotients)) =
+        record(free + model.dimension(), |inputs| {
+            let of = |place: &Source| match place {
+                Source::Zero => Expr::rational(&Rational::from(0)),
+                Source::Input(index) => inputs[*index],
+                Source::Opposite(index) => -inputs[*index],
+            };
+            let parameters: Vec<Expr> = kept.iter().map(of).collect();
+            let jet = DualPoint::new(Phase::new(model, &parameters, &inputs[free..]));
+            let factors = own.factors(&jet);
+            let terms: Vec<Expr> = factors.iter().map(|[slope, rate]| *slope * *rate).collect();
+            let quotients: Vec<Expr> = factors.iter().map(|[slope, rate]| *slope / *rate).collect();
+            (own.growth(&jet), factors, terms, quotients)
+        })?;
     // An ∫ has no name.
     if graph.inputs() > free + model.dimension() {
         return Ok(Vec::new());
@@ -83,28 +89,28 @@ fn rates(
     let sampler = Sampler::new(case, &claim.place, seed)?;
     // A denominator may be 0 for a listed value, and then nothing would be said of that.
     let may_divide = !sampler.has_lists();
-    let squares = completed_squares(&graph, growth, free, &names);
-    let mut all: Vec<String> = squares
+    let completed = completed_squares(&graph, growth, free, &names);
+    let mut all: Vec<String> = completed
         .filter(|found| may_divide || !found.divides)
         .map(|found| found.text)
         .into_iter()
         .collect();
     let simpler = simpler_forms(&graph, growth, free, &names, &written_as_squares);
-    all.extend(
-        simpler.into_iter().filter(|form| may_divide || !form.divides).map(|form| form.text),
-    );
-    let vectors = vectors(case, function);
+    let by_terms = factored_sum(&graph, &terms, free, &names, &written_as_squares);
+    let rates: Vec<String> = rate_names(case);
+    let by_rates = weighted_squares(&graph, &quotients, &rates, (free, &names));
+    let slopes: Vec<Expr> = factors.iter().map(|[slope, _]| *slope).collect();
+    let by_rest = volterra_sum(&graph, growth, &slopes, free, &names);
+    let forms = simpler.into_iter().chain(by_terms).chain(by_rates).chain(by_rest);
+    all.extend(forms.filter(|form| may_divide || !form.divides).map(|form| form.text));
+    let squares = squares(case, function);
     let numbers = numbers(case);
     let (graph, outputs) = record(free + model.dimension(), |inputs| {
         let (parameters, state) = inputs.split_at(free);
         let jet = DualPoint::new(Phase::new(model, parameters, state));
-        let square = |vector: &Formula| {
-            let components = jet.phase.evaluate(vector).components();
-            components.iter().fold(Expr::rational(&Rational::from(0)), |sum, x| sum + *x * *x)
-        };
+        let formulas = squares.iter().map(|square| &square.formula).chain(&numbers);
         let mut outputs = vec![own.growth(&jet)];
-        outputs.extend(vectors.iter().map(|(vector, _)| square(vector)));
-        outputs.extend(numbers.iter().map(|number| jet.phase.scalar(number)));
+        outputs.extend(formulas.map(|formula| jet.phase.scalar(formula)));
         outputs
     })?;
     let values = Run::new(&graph, &outputs, free + model.dimension())
@@ -113,13 +119,50 @@ fn rates(
         .map(|lane| (0..outputs.len()).map(|k| values.output(k).mid[lane]).collect())
         .filter(|row: &Vec<f64>| row.iter().all(|x| x.is_finite()))
         .collect();
-    let squares: Vec<String> = vectors.iter().map(|(vector, _)| square_of(vector)).collect();
-    let kinds: Vec<VectorKind> = vectors.iter().map(|(_, kind)| *kind).collect();
-    all.extend(sums(&table, &squares, &kinds, &numbers, may_divide));
+    all.extend(sums(&table, &squares, &numbers, may_divide));
     let mut seen = BTreeSet::new();
     all.retain(|text| seen.insert(text.clone()));
+    all.sort_by_key(String::len);
     all.truncate(MOST_RATES);
     Ok(all)
+}
+
+/// Names the rates of the components of the state.
+fn rate_names(case: &Case) -> Vec<String> {
+    let of = |(name, index): (&str, String)| match index.is_empty() {
+        true => format!("{name}'"),
+        false => format!("({name}'){index}"),
+    };
+    let variables = case.model.state.iter();
+    let each = variables.flat_map(|own| {
+        own.kind.indices().into_iter().map(|index| of((own.name.as_str(), index.to_string())))
+    });
+    each.collect()
+}
+
+/// Writes Σ (∂F/∂xₖ / xₖ') xₖ'², with the quotients in lowest terms.
+fn weighted_squares(
+    graph: &Graph,
+    quotients: &[Expr],
+    rates: &[String],
+    (free, names): (usize, &[String]),
+) -> Option<SimplerForm> {
+    let mut whole = SimplerForm { text: String::new(), divides: false };
+    let mut texts = Vec::new();
+    for (quotient, rate) in quotients.iter().zip(rates) {
+        if graph.is_nowhere_defined(*quotient) || is_zero(graph, *quotient) {
+            continue;
+        }
+        let form = factored_sum(graph, &[*quotient], free, names, &written_as_squares)?;
+        whole.divides |= form.divides;
+        texts.push(format!("({})*{rate}^2", form.text));
+    }
+    whole.text = texts.join(" + ");
+    (!texts.is_empty()).then_some(whole)
+}
+
+fn is_zero(graph: &Graph, value: Expr) -> bool {
+    graph.constant_value(value).is_some_and(Rational::is_zero)
 }
 
 /// Writes a polynomial as a sum of squares.
@@ -193,33 +236,48 @@ fn names(case: &Case) -> (Vec<String>, Vec<Source>) {
     (names, sources)
 }
 
-/// Source of a vector.
+/// Source of a square.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum VectorKind {
+enum SquareKind {
     /// Rate of a variable.
     Rate,
     /// Slope of F along a variable.
     Slope,
     /// Part of a formula of the file.
     Part,
+    /// Rate of a variable, over the variable.
+    Relative,
 }
 
-/// Lists vectors, and scalars, whose squares the rate may consist of.
-fn vectors(case: &Case, function: &Formula) -> Vec<(Formula, VectorKind)> {
+/// The square of a vector or scalar, of which the rate may consist.
+struct Square {
+    formula: Formula,
+    kind: SquareKind,
+}
+
+/// Lists squares of vectors and scalars.
+fn squares(case: &Case, function: &Formula) -> Vec<Square> {
     let model = &case.model;
-    let mut texts: Vec<(String, VectorKind)> = Vec::new();
+    let mut texts: Vec<(String, SquareKind)> = Vec::new();
     for variable in &model.state {
         let name = &variable.name;
-        texts.push((format!("{name}'"), VectorKind::Rate));
-        texts.push((format!("∂({})/∂{name}", function.text()), VectorKind::Slope));
+        texts.push((format!("{name}'"), SquareKind::Rate));
+        texts.push((format!("∂({})/∂{name}", function.text()), SquareKind::Slope));
     }
     let formulas = model.dynamics().into_iter().chain(&model.abbreviations).chain([function]);
     let parts = formulas.flat_map(Formula::parts);
-    texts.extend(parts.map(|text| (text.trim().to_string(), VectorKind::Part)));
+    texts.extend(parts.map(|text| (text.trim().to_string(), SquareKind::Part)));
     let mut seen = BTreeSet::new();
     texts.retain(|(text, _)| seen.insert(text.clone()));
-    let read = |(text, kind): (String, VectorKind)| Some((case.formula(&text).ok()?, kind));
-    texts.into_iter().filter_map(read).take(MOST_VECTORS).collect()
+    let square = |(text, kind): (String, SquareKind)| {
+        let square = square_of(&case.formula(&text).ok()?);
+        Some(Square { formula: case.formula(&square).ok()?, kind })
+    };
+    let relative = model.state.iter().filter_map(|variable| {
+        let text = relative_square(&variable.name, variable.kind)?;
+        Some(Square { formula: case.formula(&text).ok()?, kind: SquareKind::Relative })
+    });
+    relative.chain(texts.into_iter().filter_map(square)).take(MOST_SQUARES).collect()
 }
 
 /// Writes the sum of the squares of the components.
@@ -228,6 +286,18 @@ fn square_of(vector: &Formula) -> String {
     match vector.value_type() {
         Type::Matrix(..) => format!("tr(({text})ᵀ*({text}))"),
         _ => format!("({text})^2"),
+    }
+}
+
+/// Writes Σ xᵢ'²/xᵢ.
+fn relative_square(name: &str, kind: Type) -> Option<String> {
+    match kind {
+        Type::Scalar => Some(format!("{name}'^2/{name}")),
+        Type::Vector(size) => {
+            let terms = (1..=size).map(|k| format!("({name}')[{k}]^2/{name}[{k}]"));
+            Some(terms.collect::<Vec<String>>().join(" + ")).map(|sum| format!("({sum})"))
+        }
+        Type::Matrix(..) => None,
     }
 }
 
@@ -241,15 +311,15 @@ fn numbers(case: &Case) -> Vec<Formula> {
 /// parameter as a further factor: of one square or two, of all rates, and of all slopes.
 fn sums(
     table: &[Vec<f64>],
-    squares: &[String],
-    kinds: &[VectorKind],
+    squares: &[Square],
     numbers: &[Formula],
     may_divide: bool,
 ) -> Vec<String> {
-    let of_kind = |kind: VectorKind| (0..kinds.len()).filter(|k| kinds[*k] == kind).collect();
+    let of_kind =
+        |kind: SquareKind| (0..squares.len()).filter(|k| squares[*k].kind == kind).collect();
     let single = (0..squares.len()).map(|k| vec![k]);
     let pairs = (0..squares.len()).flat_map(|i| (0..i).map(move |j| vec![j, i]));
-    let whole = [VectorKind::Rate, VectorKind::Slope].map(of_kind);
+    let whole = [SquareKind::Rate, SquareKind::Slope, SquareKind::Relative].map(of_kind);
     let choices: Vec<Vec<usize>> = single.chain(whole).chain(pairs).collect();
     let mut factors: Vec<(String, Vec<f64>)> = vec![(String::new(), vec![1.0; table.len()])];
     for (p, number) in numbers.iter().enumerate() {
@@ -271,7 +341,7 @@ fn sums(
                 true => Some(String::new()),
                 false => {
                     let multiple = near(*multiple).filter(|multiple| multiple.is_negative())?;
-                    Some(format!("({multiple})*{factor}{}", squares[*k]))
+                    Some(format!("({multiple})*{factor}{}", squares[*k].formula.text()))
                 }
             };
             let terms: Vec<String> =

@@ -9,6 +9,7 @@ mod around;
 mod ascent;
 mod branches;
 mod cell_rank;
+mod circles;
 mod claim_state;
 mod cofactors;
 mod combined;

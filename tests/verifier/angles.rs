@@ -1,4 +1,4 @@
-//! Sines and cosines of multiples of π/12, and of sums with them.
+//! Sines and cosines of multiples of π/60, and of sums with them.
 
 use liouville::case::Case;
 use liouville::verdict::{Options, Verdict, judge};
@@ -29,10 +29,15 @@ fn special_angles_have_their_values() {
             "identity = 'cos(x + pi/3) = (cos(x) - sqrt(3)*sin(x))/2'",
             "identity = 'cos(x) + cos(x + 2*pi/3) + cos(x + 4*pi/3) = 0'",
             "identity = 'sin(2*x - 3*pi/4) = -(sin(2*x) + cos(2*x))/sqrt(2)'",
+            "identity = 'cos(2*pi/5) = (sqrt(5) - 1)/4'",
+            "identity = 'sin(pi/10) = (sqrt(5) - 1)/4'",
+            "identity = 'sin(pi/5)*sin(2*pi/5) = sqrt(5)/4'",
+            "identity = 'sum(i,1..5,cos(x + 2*pi*i/5)) = 0'",
+            "identity = 'cos(x + pi/5)*cos(x + 2*pi/15) = (cos(2*x + pi/3) + cos(pi/15))/2'",
         ],
     );
-    assert_eq!(found, vec![Verdict::Proved; 8]);
-    // Parts of π that are no twelfths are related by their sums.
+    assert_eq!(found, vec![Verdict::Proved; 13]);
+    // Parts of π that are no sixtieths are related by their sums.
     let related = verdicts(
         FIELD,
         &[
@@ -62,9 +67,11 @@ fn special_angles_have_their_values() {
             "identity = 'cos(pi/3) = sqrt(3)/2'",
             "identity = 'cos(x + pi/3) = (cos(x) + sqrt(3)*sin(x))/2'",
             "identity = 'cos(x) + cos(x + pi/3) + cos(x + 2*pi/3) = 0'",
+            "identity = 'sin(pi/5)*sin(2*pi/5) = -sqrt(5)/4'",
+            "identity = 'cos(x + pi/5)*cos(x + 2*pi/15) = (cos(2*x + pi/3) + cos(2*pi/15))/2'",
         ],
     );
-    assert_eq!(wrong, vec![Verdict::Refuted; 3]);
+    assert_eq!(wrong, vec![Verdict::Refuted; 5]);
 }
 
 #[test]
@@ -85,4 +92,18 @@ fn turns_by_a_third_are_symmetries() {
     let at = |second: &str| format!("fixed-point = {{ \"θ\" = '[0, {second}, 4*pi/3]' }}");
     let found = verdicts(&ring, &[&at("2*pi/3"), &at("pi/3")]);
     assert_eq!(found, [Verdict::Proved, Verdict::Refuted]);
+}
+
+#[test]
+fn five_vortices_in_a_ring_are_at_rest() {
+    let ring = |of: &str| {
+        format!(
+            "[parameters]\nn = 5\nG = '0.5..1'\na = '1..2'\n[state]\nx = 'vector(n,-2..2)'\ny = 'vector(n,-2..2)'\n\
+             [field]\n\"x[i]'\" = '-G*sum(j,1..n,j≠i,(y[i]-y[j])/((x[i]-x[j])^2+(y[i]-y[j])^2))+G*(n-1)/(2*a^2)*y[i]'\n\
+             \"y[i]'\" = 'G*sum(j,1..n,j≠i,(x[i]-x[j])/((x[i]-x[j])^2+(y[i]-y[j])^2))-G*(n-1)/(2*a^2)*x[i]'\n\
+             [[claim]]\nfixed-point = {{ x = 'vector(i,1..n,{of}*cos(2*pi*i/n))', y = 'vector(i,1..n,{of}*sin(2*pi*i/n))' }}"
+        )
+    };
+    assert_eq!(verdicts(&ring("a"), &[]), [Verdict::Proved]);
+    assert_eq!(verdicts(&ring("2*a"), &[]), [Verdict::Refuted]);
 }

@@ -117,3 +117,36 @@ fn integrals_need_that_the_motion_stays() {
     assert_eq!(found[..2], [Verdict::Proved, Verdict::Proved]);
     assert_eq!(found[2], Verdict::Refuted);
 }
+
+/// Verdict on an identity of the four-bar linkage.
+fn of_linkage(identity: &str) -> Verdict {
+    let text = format!(
+        "title = 't'\nsystem = 'nonholonomic'\n[parameters]\na = '1..1.2'\nb = '2..2.2'\nc = '2..2.2'\nd = '2..2.2'\n\
+         [state]\n\"α\" = '-3..3'\n\"β\" = '-3..3'\n\"γ\" = '-3..3'\n\"α'\" = '-2..2'\n\"β'\" = '-2..2'\n\"γ'\" = '-2..2'\n\
+         [lagrangian]\nkinetic = \"(α'^2 + β'^2 + γ'^2)/2\"\n\
+         constraints = ['a*cos(α) + b*cos(β) - c*cos(γ) = d', 'a*sin(α) + b*sin(β) - c*sin(γ) = 0']\n\
+         [[claim]]\nidentity = \"{identity}\"\nexpect = 'open'\n"
+    );
+    let case = Case::parse(&text, &[]).unwrap_or_else(|error| panic!("{error}\n{text}"));
+    let report = judge(&case, &Options::default()).unwrap_or_else(|error| panic!("{error}"));
+    report.claims[0].verdict
+}
+
+#[test]
+fn linkages_are_judged_by_sines_of_sums() {
+    let proved = [
+        "a*α'*sin(α - γ) + b*β'*sin(β - γ) = 0",
+        "(a*cos(α) + b*cos(β) - d)^2 + (a*sin(α) + b*sin(β))^2 = c^2",
+        "a^2 + b^2 + d^2 + 2*a*b*cos(α - β) - 2*a*d*cos(α) - 2*b*d*cos(β) = c^2",
+    ];
+    for identity in proved {
+        assert_eq!(of_linkage(identity), Verdict::Proved, "{identity}");
+    }
+    let wrong = [
+        "a*α'*sin(α + γ) + b*β'*sin(β - γ) = 0",
+        "a^2 + b^2 + d^2 + 2*a*b*cos(α + β) - 2*a*d*cos(α) - 2*b*d*cos(β) = c^2",
+    ];
+    for identity in wrong {
+        assert_eq!(of_linkage(identity), Verdict::Refuted, "{identity}");
+    }
+}

@@ -18,6 +18,7 @@ mod ends_of_ranges;
 mod expanded_levels;
 #[path = "../common/files.rs"]
 mod files;
+mod free_energies;
 mod functional_equations;
 mod geometry;
 mod golden;
@@ -36,6 +37,7 @@ mod listed_levels;
 mod listed_powers;
 mod local;
 mod lone_states;
+mod lowest_terms;
 mod many_variables;
 mod masses;
 mod merge;

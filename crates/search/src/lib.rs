@@ -160,6 +160,11 @@ pub fn search(
         progress,
         &mut |case, effort, report, progress| along_orbits(case, effort, false, report, progress),
     )?;
+    if effort.conditions == Some(ConditionTarget::Existence) {
+        report.stage("conditions for the density 1", effort, |report| {
+            conditions::volumes(case, effort, report, progress)
+        })?;
+    }
     report.stage("forces that integrals survive", effort, |report| {
         ansatz::forces(case, effort, report, progress)
     })?;

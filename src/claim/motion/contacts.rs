@@ -59,7 +59,11 @@ impl Motional for Contacts {
             .iter()
             .map(|(touch, when)| format!("{} at {}", name(touch), when.text))
             .collect();
-        let events = if events.is_empty() { "stays free".to_string() } else { events.join(", ") };
+        let events = if events.is_empty() {
+            "no arrival, no leaving".to_string()
+        } else {
+            events.join(", ")
+        };
         format!("{events}, under [one-sided]")
     }
 }

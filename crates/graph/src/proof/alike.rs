@@ -1,11 +1,11 @@
 //! Products of two values that have the same sign: (p − q)(F(p) − F(q)) for an increasing F, and p sin p for |p| ≤ π.
-//! Rule S6 of docs/soundness.md.
+//! Rule S6 of docs/soundness.md. Sums X − 1 − ln X: rule S12.
 
 use crate::graph::{Graph, Step};
 use crate::number::rational::Rational;
 use crate::number::{BinaryOperation, UnaryFunction};
 
-use super::monotone::{is_sum_of_functions, sign_by_terms};
+use super::monotone::{is_sum_of_functions, sign_by_terms, terms};
 
 /// Depth to which a value is looked at for its sign.
 const MOST_STEPS: usize = 6;
@@ -134,6 +134,28 @@ fn without_factor(graph: &Graph, mut place: usize) -> (usize, bool) {
         place = next;
         is_positive = is_positive == own;
     }
+}
+
+/// The sign of a sum c(X − 1 − ln X) + b with numbers c and b, where b is 0 or has the sign of c.
+/// Rule S12 of docs/soundness.md.
+pub fn sign_above_logarithm(graph: &Graph, place: usize) -> Option<bool> {
+    let all = terms(graph, place, 3)?;
+    let (slope, argument) = all.iter().find_map(|(factor, at)| match graph.step(*at) {
+        Step::Unary(UnaryFunction::Ln, argument) => Some((-factor, argument)),
+        _ => None,
+    })?;
+    let [(share, own)] = <[(Rational, usize); 1]>::try_from(terms(graph, argument, 1)?).ok()?;
+    let (mut excess, mut is_met) = (slope.clone(), false);
+    for (factor, at) in &all {
+        match graph.step(*at) {
+            Step::Unary(UnaryFunction::Ln, other) if other == argument => {}
+            Step::Constant(value) => excess = &excess + &(factor * value),
+            _ if *at == own && *factor == &slope * &share && !is_met => is_met = true,
+            _ => return None,
+        }
+    }
+    let is_met = is_met && (excess.is_zero() || excess.is_negative() == slope.is_negative());
+    is_met.then(|| !slope.is_negative())
 }
 
 /// Whether the form shows that a value is positive wherever it exists.

@@ -1,8 +1,8 @@
 //! Sines and cosines of sums with arctangents.
 //!
 //! The cosine and the sine of E = R + Σ n_j atan u_j are the parts of the complex number e^(iR) Π z_j^n_j,
-//! z_j = (1 + i u_j)/√(1 + u_j²), at all real u_j. Multiples of π/12, as 4/3 atan 1 = π/3, are turned by numbers
-//! made of √2 and √3.
+//! z_j = (1 + i u_j)/√(1 + u_j²), at all real u_j. Multiples of π/60, as 4/3 atan 1 = π/3, are turned by numbers
+//! made of √2, √3, √5 and √(10 − 2√5).
 
 use rustc_hash::FxHashMap;
 
@@ -27,8 +27,8 @@ pub struct Angle {
     rest: Vec<(usize, Rational)>,
     /// Places of factors of π/4 in the other terms of R, with their multiples.
     turns: Vec<(usize, Rational)>,
-    /// Number of twelfths of π.
-    twelfths: i64,
+    /// Number of sixtieths of π.
+    sixtieths: i64,
     /// Whether π occurs in it.
     has_quarter: bool,
 }
@@ -58,7 +58,7 @@ pub fn without_arctangents(graph: &Graph, values: &[Expr]) -> Result<(Graph, Vec
     })
 }
 
-/// Lists the arguments of sines and cosines that are sums to be written out. Twelfths of π are not, where π occurs in
+/// Lists the arguments of sines and cosines that are sums to be written out. Sixtieths of π are not, where π occurs in
 /// other parts, too: cos 2π/9 = 2 cos² π/9 − 1 is a relation between the sums as they are.
 fn taken_apart(graph: &Graph, values: &[Expr]) -> impl Iterator<Item = (usize, Angle)> {
     let arguments = arguments(graph, values);
@@ -127,7 +127,7 @@ impl Angle {
             arctangents: Vec::new(),
             rest: Vec::new(),
             turns: Vec::new(),
-            twelfths: 0,
+            sixtieths: 0,
             has_quarter: false,
         };
         let mut open: Vec<Part> = vec![(place, Rational::from(1), false)];
@@ -177,18 +177,14 @@ impl Angle {
                     }
                 }
             }
-            // A whole turn has 24 twelfths of π.
             Step::Constant(value) if of_quarter => {
-                let twelfths = (&(&factor * value) * &Rational::from(3)).to_integer();
-                if let Some(twelfths) = twelfths {
-                    self.twelfths = (self.twelfths + twelfths % 24) % 24;
+                if self.has_included(&(&factor * value)) {
                     return;
                 }
             }
             step if !of_quarter && is_one_eighth(graph, step) => {
                 self.has_quarter = true;
-                if let Some(twelfths) = (&factor * &Rational::from(3)).to_integer() {
-                    self.twelfths = (self.twelfths + twelfths % 24) % 24;
+                if self.has_included(&factor) {
                     return;
                 }
             }
@@ -206,7 +202,16 @@ impl Angle {
         }
     }
 
-    /// Whether π occurs in parts that are no twelfths of it.
+    /// Includes a multiple of π/4 if it is one of π/60; a whole turn has 120 of these.
+    fn has_included(&mut self, quarters: &Rational) -> bool {
+        let sixtieths = (quarters * &Rational::from(15)).to_integer();
+        if let Some(own) = sixtieths {
+            self.sixtieths = (self.sixtieths + own % 120) % 120;
+        }
+        sixtieths.is_some()
+    }
+
+    /// Whether π occurs in parts that are no sixtieths of it.
     fn has_other_part(&self, graph: &Graph) -> bool {
         let is_number =
             |(place, _): &(usize, Rational)| matches!(graph.step(*place), Step::Constant(_));
@@ -217,7 +222,7 @@ impl Angle {
 
     /// Whether it contains a broken part of a quarter turn.
     fn has_broken_part(&self) -> bool {
-        self.twelfths % 6 != 0
+        self.sixtieths % 30 != 0
     }
 
     /// Records the sine or the cosine, from the values at places.
@@ -235,7 +240,6 @@ impl Angle {
             }
             point = [angle.apply(UnaryFunction::Cos), angle.apply(UnaryFunction::Sin)];
         }
-        let turned = |[a, b]: [Expr; 2], [c, s]: [Expr; 2]| [a * c - b * s, a * s + b * c];
         for (place, multiple) in &self.arctangents {
             let u = values[*place]?;
             let u = if *multiple < 0 { -u } else { u };
@@ -250,7 +254,44 @@ impl Angle {
                 point = turned(point, [one / root, u / root]);
             }
         }
-        Some(turned(point, twelfths_of_pi(self.twelfths))[usize::from(sine)])
+        Some(turned(point, sixtieths_of_pi(self.sixtieths))[usize::from(sine)])
+    }
+}
+
+/// Turns a point of the circle by the angle of another.
+fn turned([a, b]: [Expr; 2], [c, s]: [Expr; 2]) -> [Expr; 2] {
+    [a * c - b * s, a * s + b * c]
+}
+
+/// Records the cosine and the sine of some sixtieths of π.
+fn sixtieths_of_pi(count: i64) -> [Expr; 2] {
+    // count = 5 twelfths + 12 fifths, as 5·5 = 1 mod 12.
+    let twelfths = (5 * count).rem_euclid(12);
+    match (count - 5 * twelfths) / 12 {
+        0 => twelfths_of_pi(twelfths),
+        fifths => turned(twelfths_of_pi(twelfths), fifths_of_pi(fifths)),
+    }
+}
+
+/// Records the cosine and the sine of some fifths of π.
+fn fifths_of_pi(count: i64) -> [Expr; 2] {
+    let number = |above: i64, below: i64| Expr::rational(&Rational::new(above, below));
+    let root = number(5, 1).apply(UnaryFunction::Sqrt);
+    // 4 sin π/5; with √(10 + 2√5) = 8 sin 2π/5 it would make two roots that depend on each other.
+    let side = (number(10, 1) - root * number(2, 1)).apply(UnaryFunction::Sqrt);
+    let first = [(root + number(1, 1)) * number(1, 4), side * number(1, 4)];
+    let second =
+        [(root - number(1, 1)) * number(1, 4), side * (root + number(1, 1)) * number(1, 8)];
+    let [c, s] = match count.rem_euclid(5) {
+        0 => [number(1, 1), number(0, 1)],
+        1 => first,
+        2 => second,
+        3 => [-second[0], second[1]],
+        _ => [-first[0], first[1]],
+    };
+    match count.rem_euclid(10) < 5 {
+        true => [c, s],
+        false => [-c, -s],
     }
 }
 
@@ -282,16 +323,16 @@ mod tests {
     use crate::number::float::Float;
 
     #[test]
-    fn twelfths_of_pi_are_those_of_the_circle() {
-        for count in -30..50i64 {
-            let (graph, point) = record(0, |_| twelfths_of_pi(count)).expect("records");
+    fn sixtieths_of_pi_are_those_of_the_circle() {
+        for count in -130..130i64 {
+            let (graph, point) = record(0, |_| sixtieths_of_pi(count)).expect("records");
             let tape = Tape::new(&graph, &point);
             let mut evaluator = Evaluator::new(&tape, Float::<1>);
             evaluator.run(&[]);
-            let angle = count as f64 * std::f64::consts::PI / 12.0;
+            let angle = count as f64 * std::f64::consts::PI / 60.0;
             let found: Vec<f64> = evaluator.outputs().map(|value| value[0]).collect();
-            assert!((found[0] - angle.cos()).abs() < 1e-13, "cos {count}π/12");
-            assert!((found[1] - angle.sin()).abs() < 1e-13, "sin {count}π/12");
+            assert!((found[0] - angle.cos()).abs() < 1e-13, "cos {count}π/60");
+            assert!((found[1] - angle.sin()).abs() < 1e-13, "sin {count}π/60");
         }
     }
 

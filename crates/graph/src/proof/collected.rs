@@ -2,15 +2,18 @@
 
 use std::cell::{Cell, RefCell};
 
-use crate::graph::{Expr, Graph, Step};
+use crate::graph::{Expr, Graph, Step, record};
 use crate::number::rational::Rational;
 use crate::number::{BinaryOperation, UnaryFunction};
 
-use super::paired::{pair_sum, pairs};
+use super::balanced::balanced_sum;
+use super::factored::product;
+use super::normal::normalised;
+use super::paired::pair_sum;
 use super::polynomial::{Fraction, MOST_WORK, Polynomial, fraction};
 
 /// Longest text.
-const MOST_LETTERS: usize = 20_000;
+pub(super) const MOST_LETTERS: usize = 20_000;
 
 /// A formula that is equal to a value wherever this has a value.
 pub struct SimplerForm {
@@ -43,40 +46,41 @@ pub fn simpler_forms(
     names: &[String],
     shown: ShownSign<'_>,
 ) -> Vec<SimplerForm> {
+    let normal = normalised(graph, &[value]);
+    let own = forms_of(graph, value, first, names, shown);
+    let others = normal.iter().flat_map(|(graph, values)| {
+        values.iter().flat_map(|value| forms_of(graph, *value, first, names, shown))
+    });
+    own.into_iter().chain(others).collect()
+}
+
+/// Lists the forms of a value as it is recorded.
+fn forms_of(
+    graph: &Graph,
+    value: Expr,
+    first: usize,
+    names: &[String],
+    shown: ShownSign<'_>,
+) -> Vec<SimplerForm> {
     let Some(read) = ReadValue::of(graph, value, first, names) else { return Vec::new() };
     let divides = read.whole.below.number().is_none();
     let whole = |text: String| match divides {
         true => format!("({text})/({})", read.whole.below.text(&read.names)),
         false => text,
     };
-    let forms =
-        [read.factored(graph, names, shown), read.collected(), pair_sum(&read, graph, names)];
-    let found = forms.into_iter().flatten().map(|text| whole(text).replace(" + -", " - "));
+    let forms = [
+        read.factored(graph, names, shown),
+        read.by_parameters(graph, names, shown),
+        read.collected(),
+        pair_sum(&read, graph, names),
+    ];
+    let balanced = balanced_sum(&read, graph);
+    let found = forms.into_iter().flatten().map(whole).chain(balanced);
     found
+        .map(|text| text.replace(" + -", " - "))
         .filter(|text| text.len() < MOST_LETTERS)
         .map(|text| SimplerForm { text, divides })
         .collect()
-}
-
-/// Writes c Π f^m with f in brackets where it is a sum.
-fn product(coefficient: String, factors: impl Iterator<Item = (String, bool, u32)>) -> String {
-    let mut all: Vec<String> = Vec::new();
-    let sign = match coefficient.as_str() {
-        "1" => "",
-        "-1" => "-",
-        _ => {
-            all.push(coefficient);
-            ""
-        }
-    };
-    all.extend(factors.filter(|(.., power)| *power > 0).map(|(text, is_sum, power)| {
-        let base = if is_sum { format!("({text})") } else { text };
-        if power == 1 { base } else { format!("{base}^{power}") }
-    }));
-    match all.is_empty() {
-        true => format!("{sign}1"),
-        false => format!("{sign}{}", all.join("*")),
-    }
 }
 
 /// Divides a fraction by what divides both of its parts; a denominator that is a number becomes 1.
@@ -94,6 +98,36 @@ pub fn reduced(whole: Fraction) -> Option<Fraction> {
     })
 }
 
+/// Records a value again as a quotient in lowest terms, equal to it wherever it has a value: K/K is 1. `None` if it is no
+/// quotient of polynomials in inputs and functions.
+pub fn reduced_value(graph: &Graph, value: Expr) -> Option<(Graph, Expr)> {
+    let (places, whole) = read_fraction(graph, value)?;
+    let reached = graph.reached_from(&places);
+    let (own, value) = record(graph.inputs(), |inputs| {
+        let values = graph.repeated(&reached, inputs);
+        whole.value(&|variable| values[*places.get(variable as usize)?])
+    })
+    .ok()?;
+    Some((own, value?))
+}
+
+/// Reads a value as a fraction in lowest terms, with the places of its variables.
+fn read_fraction(graph: &Graph, value: Expr) -> Option<(Vec<usize>, Fraction)> {
+    let places: RefCell<Vec<usize>> = RefCell::default();
+    let whole = fraction(graph, graph.place(value), &|at, step| {
+        if !is_variable(step) {
+            return None;
+        }
+        let mut places = places.borrow_mut();
+        let index = places.iter().position(|place| *place == at).unwrap_or(places.len());
+        if index == places.len() {
+            places.push(at);
+        }
+        u32::try_from(index).ok().map(Polynomial::variable)
+    })?;
+    Some((places.into_inner(), reduced(whole)?))
+}
+
 /// A reduced fraction in inputs and values of functions, with the names of these.
 pub(super) struct ReadValue {
     pub(super) whole: Fraction,
@@ -101,24 +135,31 @@ pub(super) struct ReadValue {
     pub(super) places: Vec<usize>,
     pub(super) names: Vec<String>,
     /// Whether a variable depends on the inputs from a given one on.
-    is_own: Vec<bool>,
+    pub(super) is_own: Vec<bool>,
 }
 
 impl ReadValue {
-    fn of(graph: &Graph, value: Expr, first: usize, names: &[String]) -> Option<Self> {
-        let places: RefCell<Vec<usize>> = RefCell::default();
-        let whole = fraction(graph, graph.place(value), &|at, step| {
-            if !is_variable(step) {
-                return None;
-            }
-            let mut places = places.borrow_mut();
-            let index = places.iter().position(|place| *place == at).unwrap_or(places.len());
-            if index == places.len() {
-                places.push(at);
-            }
-            u32::try_from(index).ok().map(Polynomial::variable)
-        })?;
-        let places = places.into_inner();
+    /// Reads a quotient of polynomials in inputs, whose variables are their numbers.
+    pub(super) fn of_inputs(
+        graph: &Graph,
+        value: Expr,
+        first: usize,
+        names: &[String],
+    ) -> Option<Self> {
+        let input = |_: usize, step: Step<'_>| match step {
+            Step::Input(number) => u32::try_from(number).ok().map(Polynomial::variable),
+            _ => None,
+        };
+        Some(Self {
+            whole: reduced(fraction(graph, graph.place(value), &input)?)?,
+            places: Vec::new(),
+            names: names.to_vec(),
+            is_own: (0..names.len()).map(|number| number >= first).collect(),
+        })
+    }
+
+    pub(super) fn of(graph: &Graph, value: Expr, first: usize, names: &[String]) -> Option<Self> {
+        let (places, whole) = read_fraction(graph, value)?;
         let of_state = |place: &usize| {
             let reached = graph.reached_from(&[*place]);
             let is_state = |step| matches!(step, Step::Input(number) if number >= first);
@@ -127,65 +168,11 @@ impl ReadValue {
         let written: Option<Vec<String>> =
             places.iter().map(|place| text(graph, *place, names)).collect();
         Some(Self {
-            whole: reduced(whole)?,
+            whole,
             names: written?,
             places: places.clone(),
             is_own: places.iter().map(of_state).collect(),
         })
-    }
-
-    /// Writes c Π f^m, with pairs of factors that have the same sign in brackets.
-    fn factored(&self, graph: &Graph, names: &[String], shown: ShownSign<'_>) -> Option<String> {
-        let mut rest = self.whole.above.clone();
-        let mut work = MOST_WORK;
-        let mut factors = Vec::new();
-        for factor in rest.factors() {
-            let mut count = 0;
-            while let Some(less) = rest.over(&factor, &mut work) {
-                (rest, count) = (less, count + 1);
-            }
-            factors.push((factor, count));
-        }
-        let mut coefficient = rest.number()?;
-        let mut written = Vec::new();
-        for pair in pairs(self, graph, names, &factors) {
-            let [(first, own), (second, other)] = pair.factors;
-            factors[first].1 -= 1;
-            factors[second].1 -= 1;
-            coefficient = &(&coefficient * &own) * &other;
-            written.push((pair.text, false, 1));
-        }
-        for (factor, count) in factors {
-            let is_sum = factor.as_term().is_none_or(|(_, powers)| powers.len() > 1);
-            let signs = if is_sum && count % 2 == 1 { &[1, -1][..] } else { &[] };
-            let found = signs.iter().find_map(|sign| {
-                let own = self.named(&factor.scaled(&Rational::from(*sign)));
-                Some((Rational::from(*sign), shown(&own)?))
-            });
-            match found {
-                Some((sign, text)) => {
-                    coefficient = &coefficient * &sign;
-                    written.push((text, true, count));
-                }
-                None => written.push((factor.text(&self.names), is_sum, count)),
-            }
-        }
-        Some(product(coefficient.to_string(), written.into_iter()))
-    }
-
-    /// Names the variables of a polynomial.
-    fn named(&self, polynomial: &Polynomial) -> NamedPolynomial<'_> {
-        let variables = polynomial.variables();
-        let terms = polynomial.terms().map(|(value, powers)| {
-            let power = |variable: &u32| {
-                powers.iter().find(|(own, _)| own == variable).map_or(0, |(_, power)| *power)
-            };
-            (value.clone(), variables.iter().map(power).collect())
-        });
-        NamedPolynomial {
-            terms: terms.collect(),
-            names: variables.iter().map(|own| self.names[*own as usize].as_str()).collect(),
-        }
     }
 
     /// Writes Σ c x^k.
@@ -273,7 +260,6 @@ mod tests {
     use num_dual::DualNum;
 
     use super::*;
-    use crate::graph::record;
     use crate::scalar::Scalar;
 
     /// Writes a value of a, x, y, of which the first is a parameter.
@@ -289,10 +275,13 @@ mod tests {
     #[test]
     fn values_are_divided_into_factors_and_collected() {
         let own = forms(|v| v[0] * v[1] * v[2].modulus() - v[1] * v[2].modulus() * 3.0);
-        assert_eq!(own.len(), 2);
-        assert_eq!(own[1], "(a - 3)*x*abs(y)", "{own:?}");
+        assert_eq!(own.len(), 3, "{own:?}");
+        assert_eq!(own[2], "(a - 3)*x*abs(y)", "{own:?}");
         let own = forms(|v| (v[1] - 1.0) * (v[1].recip() - 1.0) * v[1]);
         assert_eq!(own[0], "-(x - 1)^2", "x cancels: {own:?}");
+        let own = forms(|v| v[0] * v[1] * v[1] - v[1] * v[2] * v[0] * v[0]);
+        let own = own.iter().find(|text| text.contains(" + ")).or(own.first());
+        assert!(own.is_some(), "by parameters");
         let own = forms(|v| v[1].sin() / v[2] - v[0] / v[2]);
         assert!(own.iter().all(|text| text.ends_with(")/(y)")), "{own:?}");
     }

@@ -213,7 +213,7 @@ impl Explorer<'_> {
                 continue;
             }
             let argument = graph.step(modulus.place).arguments().next().unwrap_or(modulus.place);
-            match region.sign(argument) {
+            match region.sign(argument).or_else(|| region.sign_by_slopes(argument)) {
                 Some(positive) => {
                     let is_implied = evident[argument].is_none();
                     let place = modulus.place;

@@ -194,7 +194,7 @@ impl Growth {
 }
 
 /// Lists the terms of a sum, each a multiple of a value that is no sum; `None` if there are more than `most`.
-fn terms(graph: &Graph, place: usize, most: usize) -> Option<Vec<Term>> {
+pub(super) fn terms(graph: &Graph, place: usize, most: usize) -> Option<Vec<Term>> {
     let number = |place: usize| match graph.step(place) {
         Step::Constant(value) if !value.is_zero() => Some(value),
         _ => None,

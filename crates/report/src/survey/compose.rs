@@ -253,7 +253,8 @@ fn integrals(survey: &Survey) -> Vec<SectionBlock> {
             _ => "None is known.".to_string(),
         }));
     }
-    let count = count(&survey.independence, &survey.hierarchy);
+    let jumps = survey.integrals.iter().any(TestedClaim::jumps);
+    let count = count(&survey.independence, &survey.hierarchy, jumps);
     found.push(text(match survey.by_value.is_empty() {
         true => count,
         false => format!("What holds for all listed values: {count}"),
@@ -269,7 +270,7 @@ fn integrals(survey: &Survey) -> Vec<SectionBlock> {
     found
 }
 
-fn count(count: &IntegralCount, place: &HierarchyPlace) -> String {
+fn count(count: &IntegralCount, place: &HierarchyPlace, jumps: bool) -> String {
     let has_measure =
         matches!(place.measure, MeasureStatus::ClosedForm | MeasureStatus::ByQuadrature);
     let found = count.independent.len();
@@ -286,6 +287,7 @@ fn count(count: &IntegralCount, place: &HierarchyPlace) -> String {
         (false, _) => "too few integrals are known",
     };
     let known = match found {
+        0 if jumps => "no integral that does not jump is proved".to_string(),
         0 => "no integral is proved".to_string(),
         1 => format!("1 independent integral is proved ({})", count.independent.join(", ")),
         _ => format!("{found} independent integrals are proved ({})", count.independent.join(", ")),

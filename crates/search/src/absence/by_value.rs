@@ -68,3 +68,29 @@ pub fn judged(
     let theorem = if is_same { theorem } else { each.join(" ") };
     Ok(Some(AbsenceOutcome::Excluded { theorem, counted }))
 }
+
+/// Finds an invariant for one combination of listed values, where the count for all of them together leaves the claim open.
+pub fn contradicted(
+    case: &Case,
+    kind: &Absence,
+    (reports, others): (&[ClaimReport], &[Formula]),
+    options: Options,
+) -> Result<Option<String>, SearchError> {
+    if first_values(case).is_none() {
+        return Ok(None);
+    }
+    let all = combinations(case).unwrap_or_default();
+    let share = MOST_TIME / all.len().clamp(1, MOST) as u32;
+    for ListedCase { case: fixed, values } in all.iter().take(MOST) {
+        let effort = Effort { options, ..Effort::default() };
+        let known = ProvedIntegrals::of(fixed, (reports, others), &effort)?;
+        let coordinates = Coordinates::of(fixed);
+        let mut asked = AbsenceCase::new(fixed, (&known, &coordinates), reports, options);
+        asked.effort.halt = Halt::within(share);
+        asked.named = &case.model;
+        if let Ok(AbsenceOutcome::Exhibited(what)) = asked.judge(kind) {
+            return Ok(Some(format!("for {values}, {what}")));
+        }
+    }
+    Ok(None)
+}

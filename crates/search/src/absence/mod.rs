@@ -170,7 +170,15 @@ fn judged(
             Err(error) => return AbsenceOutcome::Open(error.to_string()),
         }
         let asked = AbsenceCase::new(case, (known, coordinates), judged, options);
-        asked.judge(&claim.kind).unwrap_or_else(|error| AbsenceOutcome::Open(error.to_string()))
+        let outcome = asked.judge(&claim.kind);
+        let outcome = outcome.unwrap_or_else(|error| AbsenceOutcome::Open(error.to_string()));
+        if !matches!(outcome, AbsenceOutcome::Open(_)) {
+            return outcome;
+        }
+        match by_value::contradicted(case, &claim.kind, (judged, others), options) {
+            Ok(Some(what)) => AbsenceOutcome::Exhibited(what),
+            _ => outcome,
+        }
     };
     case.absences.iter().map(|claim| reports::report(claim, outcome(claim))).collect()
 }

@@ -133,14 +133,13 @@ pub fn conditions(
                 progress("conditions for a density of the configuration");
                 by_values(case, None, effort, report)?;
             }
-            velocities::conditions(case, effort, report, progress)?;
-            volumes(case, effort, report, progress)
+            velocities::conditions(case, effort, report, progress)
         }
     }
 }
 
 /// Finds the conditions under which a field preserves volumes, where no density is known.
-fn volumes(
+pub fn volumes(
     case: &Case,
     effort: &Effort,
     report: &mut SearchReport,

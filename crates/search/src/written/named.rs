@@ -55,7 +55,7 @@ impl NamedExpressions {
             _ => {}
         }
         for inner in wholes.iter().flat_map(|own| bracketed(own)) {
-            texts.push((inner.to_string(), inner.to_string()));
+            texts.push((inner.to_string(), spaced(inner)));
         }
         let is_hyperbolic =
             |own: &String| ["cosh(", "sinh(", "tanh("].iter().any(|f| own.contains(f));
@@ -118,6 +118,27 @@ pub fn show_energy(reader: &mut Reader<'_>) {
     }
 }
 
+/// Writes a sum with spaces about its signs.
+fn spaced(text: &str) -> String {
+    let letters: Vec<char> = text.chars().collect();
+    let mut written = String::with_capacity(text.len());
+    for (place, letter) in letters.iter().enumerate() {
+        let before = place.checked_sub(1).map(|place| letters[place]);
+        let ends_term = |own: char| own.is_alphanumeric() || [')', ']', '}', '\''].contains(&own);
+        let is_exponent = before == Some('e')
+            && place.checked_sub(2).is_some_and(|place| letters[place].is_ascii_digit());
+        match letter {
+            '+' | '-' | '−' if before.is_some_and(ends_term) && !is_exponent => {
+                written.push(' ');
+                written.push(*letter);
+                written.extend(letters.get(place + 1).filter(|next| **next != ' ').map(|_| ' '));
+            }
+            _ => written.push(*letter),
+        }
+    }
+    written
+}
+
 /// Texts inside of round brackets, outer ones first.
 fn bracketed(text: &str) -> Vec<&str> {
     let mut open = Vec::new();
@@ -135,4 +156,16 @@ fn bracketed(text: &str) -> Vec<&str> {
     }
     found.sort_by_key(|(start, _)| *start);
     found.into_iter().map(|(_, own)| own).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::spaced;
+
+    #[test]
+    fn signs_of_sums_have_spaces() {
+        assert_eq!(spaced("1-x^2-y^2"), "1 - x^2 - y^2");
+        assert_eq!(spaced("a + b-c"), "a + b - c");
+        assert_eq!(spaced("x^(-2)+2e-5*y"), "x^(-2) + 2e-5*y");
+    }
 }

@@ -132,3 +132,18 @@ fn an_integral_that_changes_on_the_way_is_not_known() {
         assert!(reason.contains("not counted"), "{integral}: {reason}");
     }
 }
+
+#[test]
+fn a_listed_value_with_an_integral_refutes_for_lagrangians() {
+    let text = |listed: &str| {
+        format!(
+            "title = 't'\n[parameters]\nk = 'one of {listed}'\n[state]\nx = '-2..2'\ny = '-2..2'\n\"x'\" = '-2..2'\n\
+             \"y'\" = '-2..2'\n[lagrangian]\nkinetic = \"(x'^2 + y'^2)/2\"\n\
+             potential = '(x^2 + y^2)/2 + k*x^3*y'\n[[claim]]\nno-integral = {{ degree = 1 }}\nexpect = 'open'\n"
+        )
+    };
+    let found = only(&text("0, 1"));
+    assert_eq!(found.verdict, Verdict::Refuted, "{found:?}");
+    assert!(format!("{:?}", found.evidence).contains("for k = 0"), "{:?}", found.evidence);
+    assert_ne!(only(&text("1, 2")).verdict, Verdict::Refuted, "no turn is a symmetry");
+}

@@ -172,7 +172,7 @@ fn a_constraint_is_not_forgotten() {
         ["wall.toml", "other.toml"].map(|file| home.join(file).display().to_string());
     let check =
         |file: &str, code| liouville(&["check", "--motion", "-v", file]).assert().code(code);
-    let told = contains("stays free, under [one-sided]").and(contains("warning").not());
+    let told = contains("no arrival, no leaving, under [one-sided]").and(contains("warning").not());
     check(&wall, 0).stdout(told);
     let told = contains("warning: verdicts speak of the field without [one-sided]");
     check(&other, 1).stdout(told.and(contains("leave out [one-sided]")));

@@ -6,11 +6,11 @@ use rustc_hash::FxHashMap;
 
 use crate::graph::{Kernel, with_widest_vectors};
 use crate::number::UnaryFunction;
-use crate::proof::alike::Likeness;
 use crate::proof::extent::Extent;
 use crate::proof::fact::SignFact;
 
 use super::reach::{Changes, Reach, ReachedStep, Rule};
+use super::signed::SignedProduct;
 
 /// Number of passes over the steps, forwards and backwards.
 const PASSES: usize = 3;
@@ -24,19 +24,6 @@ pub(super) fn narrow(bound: &mut Extent, other: Extent) -> bool {
     is_narrower
 }
 
-/// Bounds a product of values whose signs are alike or opposite.
-fn signed(likeness: Likeness, product: Extent, bounds: &[Extent]) -> Extent {
-    match likeness {
-        Likeness::Signed(is_positive) => product.within(is_positive),
-        Likeness::WithinHalfTurns(angle, is_positive) => {
-            match is_within_half_turns(bounds[angle]) {
-                true => product.within(is_positive),
-                false => product,
-            }
-        }
-    }
-}
-
 /// Whether an angle is between −π and π.
 pub(super) fn is_within_half_turns(angle: Extent) -> bool {
     angle.ends().is_some_and(|[low, high]| -PI <= low && high <= PI)
@@ -44,7 +31,12 @@ pub(super) fn is_within_half_turns(angle: Extent) -> bool {
 
 /// Bounds a value from its arguments.
 #[inline(always)]
-fn of_step(step: &ReachedStep<'_>, bounds: &[Extent], part: &[Extent]) -> Extent {
+fn of_step(
+    step: &ReachedStep<'_>,
+    signed: &[SignedProduct],
+    bounds: &[Extent],
+    part: &[Extent],
+) -> Extent {
     let extent = match step.rule {
         Rule::Constant(value) => value,
         Rule::Input(input) => part[input],
@@ -62,15 +54,16 @@ fn of_step(step: &ReachedStep<'_>, bounds: &[Extent], part: &[Extent]) -> Extent
         Rule::Sum(a, b) => bounds[a].plus(bounds[b]),
         Rule::Difference(a, b) => bounds[a].plus(bounds[b].negated()),
         Rule::Square(a) => bounds[a].square(),
-        Rule::Product(a, b) => match step.likeness {
+        Rule::Product(a, b) => match step.signed.and_then(|own| signed.get(own as usize)) {
             None => bounds[a].times(bounds[b]),
-            Some(own) => signed(own, bounds[a].times(bounds[b]), bounds),
+            Some(own) => own.within(bounds[a].times(bounds[b]), bounds),
         },
         Rule::Raised(a, _) => match bounds[a].within(true).is_empty() {
             true => Extent::EMPTY,
             false => Extent::POSITIVE,
         },
     };
+    let extent = step.sign.map_or(extent, |sign| extent.within(sign));
     match step.is_zero {
         true => extent.common(Extent::ZERO),
         false => extent,
@@ -166,22 +159,23 @@ impl Reach<'_> {
     /// Bounds values from their arguments.
     #[inline(always)]
     fn forward(&mut self, part: &[Extent]) {
-        for (number, step) in self.steps.iter().enumerate() {
-            self.bounds[number] = self.bounds[number].common(of_step(step, &self.bounds, part));
+        let Self { steps, signed, bounds, .. } = self;
+        for (number, step) in steps.iter().enumerate() {
+            bounds[number] = bounds[number].common(of_step(step, signed, bounds, part));
         }
     }
 
     /// Bounds again the values whose arguments have changed since, as the others stay what they are.
     #[inline(always)]
     fn forward_again(&mut self, part: &[Extent]) {
-        let Self { steps, bounds, changes, .. } = self;
+        let Self { steps, signed, bounds, changes, .. } = self;
         for (number, step) in steps.iter().enumerate() {
             let Some([a, b]) = step.rule.arguments() else { continue };
             if changes.last[a].max(changes.last[b]) <= changes.forward[number] {
                 continue;
             }
             changes.forward[number] = changes.count;
-            let extent = of_step(step, bounds, part);
+            let extent = of_step(step, signed, bounds, part);
             if narrow(&mut bounds[number], extent) {
                 changes.note(number);
             }

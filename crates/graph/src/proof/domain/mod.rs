@@ -12,11 +12,15 @@
 //!
 //! Without the proviso the second rule is wrong: y + |y| is 0 for all y < 0, and x (y + |y|) ≥ 0
 //! says nothing about x there. These are rules S1 to S3 of docs/soundness.md.
+//!
+//! Products of factors that have one sign together are added by `signed` and `slopes` (S6 and S11).
 
 mod bounds;
 mod linked;
 mod reach;
 mod search;
+mod signed;
+mod slopes;
 
 #[cfg(test)]
 mod tests;
@@ -34,6 +38,8 @@ use reach::Reach;
 
 /// Largest number of parts of the box on which one value is bounded.
 const MOST_PARTS: usize = 64;
+/// Largest number of operations of a value whose sign is sought by slopes.
+const MOST_OPERATIONS: usize = 600;
 
 /// The sign of a value wherever it exists.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -88,7 +94,20 @@ impl Region<'_> {
 
     /// Finds the same, and whether the value may be 0.
     pub fn known_sign(&self, place: usize) -> Option<KnownSign> {
-        let mut reach = self.reached(&[place]);
+        self.sign_on(&mut self.reached(&[place]), place)
+    }
+
+    /// Finds the sign of the value at a place, also from slopes of factors of products.
+    pub fn sign_by_slopes(&self, place: usize) -> Option<bool> {
+        let value = self.graph.at(place);
+        if self.graph.operations(&[value]) > MOST_OPERATIONS {
+            return None;
+        }
+        let mut reach = Reach::with_slopes(self, &[place])?;
+        self.sign_on(&mut reach, place).map(|known| known.is_positive)
+    }
+
+    fn sign_on(&self, reach: &mut Reach<'_>, place: usize) -> Option<KnownSign> {
         let number = reach.number(place);
         let (mut known, mut may_vanish): (Option<bool>, bool) = (None, false);
         let mut parts = vec![(self.whole(), 0)];
@@ -104,7 +123,7 @@ impl Region<'_> {
                     known = Some(sign);
                     may_vanish |= !extent.excludes_zero();
                 }
-                (None, _) => match self.cut(&reach, part, depth) {
+                (None, _) => match self.cut(reach, part, depth) {
                     Some(halves) if looked + parts.len() + 2 <= MOST_PARTS => parts.extend(halves),
                     _ => return None,
                 },

@@ -1,14 +1,16 @@
 //! The values that a question about a region needs, laid out for passes over them.
 
-use crate::graph::Step;
+use crate::graph::{Graph, Step};
 use crate::number::rational::Rational;
 use crate::number::{BinaryOperation, UnaryFunction};
-use crate::proof::alike::{Likeness, likeness};
+use crate::proof::alike::sign_above_logarithm;
 use crate::proof::extent::Extent;
 use crate::proof::fact::SignFact;
 
 use super::Region;
 use super::linked::{Link, links};
+use super::signed::SignedProduct;
+use super::slopes::Slopes;
 
 /// The reached values of a region in order, numbered from 0, with memory for their bounds.
 pub struct Reach<'r> {
@@ -16,6 +18,8 @@ pub struct Reach<'r> {
     /// Place of each value.
     pub(super) places: Vec<usize>,
     pub(super) steps: Vec<ReachedStep<'r>>,
+    /// Products whose signs are known from more than their two factors.
+    pub(super) signed: Vec<SignedProduct>,
     /// Facts about values, by number.
     pub(super) facts: Vec<(usize, SignFact)>,
     /// Inputs among the values: number and index.
@@ -90,13 +94,30 @@ pub(super) struct ReachedStep<'r> {
     pub rule: Rule<'r>,
     pub is_zero: bool,
     pub is_nonzero: bool,
-    /// Relation of the signs of the factors of a product, with numbers for places.
-    pub likeness: Option<Likeness>,
+    /// Index of the sign of a product.
+    pub signed: Option<u32>,
+    /// The sign of a sum with a logarithm.
+    pub sign: Option<bool>,
 }
 
 impl<'r> Reach<'r> {
     /// Lays out what the facts and the values at some places need.
     pub fn new(region: &'r Region<'r>, others: &[usize]) -> Self {
+        Self::laid_out(region, others, None)
+    }
+
+    /// Lays out the same, with signs of products that follow from slopes; `None` if there are none.
+    pub fn with_slopes(region: &'r Region<'r>, others: &[usize]) -> Option<Self> {
+        let mut slopes = Slopes::new(region.graph, region.inputs);
+        let reach = Self::laid_out(region, others, Some(&mut slopes));
+        slopes.are_known().then_some(reach)
+    }
+
+    fn laid_out(
+        region: &'r Region<'r>,
+        others: &[usize],
+        mut slopes: Option<&mut Slopes<'r>>,
+    ) -> Self {
         let graph = region.graph;
         let asked: Vec<usize> =
             region.facts.iter().map(|(place, _)| *place).chain(others.iter().copied()).collect();
@@ -104,13 +125,26 @@ impl<'r> Reach<'r> {
         let places: Vec<usize> = (0..reached.len()).filter(|place| reached[*place]).collect();
         let mut numbers = vec![0; places.last().map_or(0, |last| last + 1)];
         places.iter().enumerate().for_each(|(number, place)| numbers[*place] = number);
+        let mut signed: Vec<SignedProduct> = Vec::new();
         let step = |place: &usize| ReachedStep {
             rule: rule(graph.step(*place), &numbers),
             is_zero: region.classes.is_zero(*place),
             is_nonzero: region.classes.is_nonzero(*place),
-            likeness: match graph.step(*place) {
+            signed: match graph.step(*place) {
                 Step::Binary(BinaryOperation::Mul, a, b) if a != b => {
-                    likeness(graph, a, b).map(|own| own.numbered(&numbers))
+                    let known = SignedProduct::of(graph, [a, b], &numbers, slopes.as_deref_mut());
+                    known.and_then(|known| {
+                        signed.push(known);
+                        u32::try_from(signed.len() - 1).ok()
+                    })
+                }
+                _ => None,
+            },
+            sign: match graph.step(*place) {
+                Step::Binary(BinaryOperation::Add | BinaryOperation::Sub, a, b)
+                    if is_logarithm(graph, a) || is_logarithm(graph, b) =>
+                {
+                    sign_above_logarithm(graph, *place)
                 }
                 _ => None,
             },
@@ -127,6 +161,7 @@ impl<'r> Reach<'r> {
             region,
             places,
             steps,
+            signed,
             facts,
             inputs,
             links,
@@ -153,6 +188,17 @@ impl<'r> Reach<'r> {
     /// Lists the reached inputs: number of the value, and index of the input.
     pub fn inputs(&self) -> &[(usize, usize)] {
         &self.inputs
+    }
+}
+
+/// Whether a value is a multiple of a logarithm.
+fn is_logarithm(graph: &Graph, place: usize) -> bool {
+    let is_own = |place: usize| matches!(graph.step(place), Step::Unary(UnaryFunction::Ln, _));
+    match graph.step(place) {
+        Step::Unary(UnaryFunction::Ln, _) => true,
+        Step::Unary(UnaryFunction::Neg, a) => is_own(a),
+        Step::Binary(BinaryOperation::Mul, a, b) => is_own(a) || is_own(b),
+        _ => false,
     }
 }
 

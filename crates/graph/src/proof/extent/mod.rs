@@ -104,6 +104,11 @@ impl Extent {
         (low < middle && middle < high).then_some(middle)
     }
 
+    /// Returns the hull of two intervals.
+    pub fn hull(self, other: Self) -> Self {
+        Self { low: self.low.min(other.low), high: self.high.max(other.high) }
+    }
+
     /// Returns the hull of the interval and its opposite.
     pub fn hull_with_opposite(self) -> Self {
         let size = self.high.max(-self.low);

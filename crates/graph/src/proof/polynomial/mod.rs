@@ -238,10 +238,12 @@ impl Polynomial {
         };
         let term = |(monomial, value): (&Monomial, &Rational)| {
             let mut factors: Vec<String> = monomial.0.iter().map(power).collect();
-            if factors.is_empty() || *value != Rational::from(1) {
+            if factors.is_empty() || !value.abs().is_one() {
                 factors.insert(0, value.to_string());
+                return factors.join("*");
             }
-            factors.join("*")
+            let sign = if value.is_negative() { "-" } else { "" };
+            format!("{sign}{}", factors.join("*"))
         };
         let terms: Vec<String> = self.terms.iter().rev().map(term).collect();
         if terms.is_empty() { "0".to_string() } else { terms.join(" + ") }
