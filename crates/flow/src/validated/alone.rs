@@ -1,8 +1,8 @@
 //! Boxes about a closed orbit that hold no other one: they are as wide as a claim about it is vague.
 
 use super::course::Course;
-use super::guess::Nodes;
-use super::{KAPPAS, MOST_UNKNOWNS, Obstacle, OrbitSearch, Request, prepared};
+use super::division::DIVISIONS;
+use super::{MOST_UNKNOWNS, Obstacle, OrbitSearch, Request, prepared};
 
 /// Sides of the boxes of states against those that hold the start, or what the motion covers in the
 /// doubt about the period: some have room for both.
@@ -19,9 +19,12 @@ pub fn is_alone(request: &Request<'_>, unit: f64) -> Result<bool, Obstacle> {
     let state = request.state();
     let (shooting, _) = prepared(request, &state)?;
     let most = MOST_UNKNOWNS / request.model.dimension().max(1);
-    for kappa in KAPPAS {
-        let nodes = Nodes::along(request.model, request.start, request.period, kappa, most)?;
-        let search = match OrbitSearch::new(&shooting, nodes.ok_or(Obstacle::TooLong)?) {
+    let Request { model, start, period, .. } = request;
+    for division in DIVISIONS {
+        let nodes = division.nodes(&shooting.motion, model, start, *period, most);
+        let search = match nodes
+            .and_then(|nodes| OrbitSearch::new(&shooting, nodes.ok_or(Obstacle::TooLong)?))
+        {
             Err(Obstacle::NoStep(_)) => continue,
             found => found?,
         };

@@ -10,12 +10,13 @@
 //! an orthogonal matrix.
 
 use super::coefficients::BOXES;
+use super::division::DIVISIONS;
 use super::enclosure::{Enclosure, raised};
 use super::functions::norm;
 use super::guess::Nodes;
 use super::laws::Laws;
 use super::motion::{Boxed, EnclosedMotion, EnclosedPassage};
-use super::{KAPPAS, LEAST_RADIUS, Obstacle};
+use super::{LEAST_RADIUS, Obstacle};
 use crate::motion::start::Start;
 use liouville::mechanics::Model;
 use liouville::number::double_double::DoubleDouble;
@@ -51,14 +52,16 @@ pub fn follow(
     let state = start.iter().map(|x| DoubleDouble::from_f64(x.mid)).collect();
     let begin = Start { parameters: parameters.to_vec(), state, moved: 0.0 };
     let mut obstacle = Obstacle::NoStep(0.0);
-    for kappa in KAPPAS {
-        let nodes = Nodes::along(model, &begin, time.mid, kappa, MOST_STEPS)?;
-        match along(&motion, &nodes.ok_or(Obstacle::TooManySteps)?, start, time) {
+    for division in DIVISIONS {
+        let nodes = division.nodes(&motion, model, &begin, time.mid, MOST_STEPS);
+        match nodes
+            .and_then(|nodes| along(&motion, &nodes.ok_or(Obstacle::TooManySteps)?, start, time))
+        {
             Err(problem @ Obstacle::NoStep(_)) => obstacle = problem,
             other => return other,
         }
     }
-    Err(obstacle)
+    Err(obstacle.of_field(&motion))
 }
 
 fn along(

@@ -3,7 +3,7 @@
 use super::coefficients::{BOXES, Block, Coefficients};
 use super::enclosure::Enclosure;
 use super::laws::Laws;
-use super::plan::Plan;
+use super::plan::{Plan, RowRule};
 use super::sharp;
 use super::tail::{self, End};
 use crate::error::FlowError;
@@ -19,6 +19,10 @@ use num_dual::Dual;
 
 /// Order of the series, where it is not chosen.
 pub const ORDER: usize = 20;
+
+/// Limit on the halves of a step, and ratio of the radius of its norm to it that leaves room for a box.
+const MOST_HALVES: usize = 2 * BOXES;
+const ROOM: f64 = 3.0;
 
 /// Box of states, an enclosure for each component.
 pub type Boxed = Vec<Enclosure>;
@@ -163,6 +167,43 @@ impl EnclosedMotion {
             EnclosedPassage { end, derivative, volume: columns[count], radius }
         };
         steps(&self.full, self.order, &starts, h).into_iter().map(|end| end.map(passage)).collect()
+    }
+
+    /// Longest step from a state, the one given or a half, quarter, … of it, that is proved with room
+    /// for a box about the state.
+    pub fn longest(&self, state: &[f64], step: f64) -> Option<f64> {
+        let start = self.whole(state.iter().map(|x| Enclosure::exact(*x)).collect());
+        let starts = vec![start; BOXES];
+        (0..MOST_HALVES).step_by(BOXES).find_map(|first| {
+            let halves = |k: usize| step * 0.5f64.powi(i32::try_from(first + k).unwrap_or(0));
+            let steps_tried: Vec<Enclosure> =
+                (0..BOXES).map(|k| Enclosure::exact(halves(k))).collect();
+            let ends = steps(&self.full, self.order, &starts, &steps_tried);
+            let has_room = |(h, end): (&Enclosure, Option<End>)| {
+                (end?.radius >= ROOM * h.mid).then_some(h.mid)
+            };
+            steps_tried.iter().zip(ends).find_map(has_room)
+        })
+    }
+
+    /// Whether the field is a polynomial in the state and in exponentials, sines and cosines: it has
+    /// neither poles nor branches.
+    pub fn is_entire(&self) -> bool {
+        let rules = self.wide.operations.iter().map(|(_, rule)| rule);
+        let is_entire = |rule: &RowRule| {
+            matches!(
+                rule,
+                RowRule::Sum(_)
+                    | RowRule::Theta(_)
+                    | RowRule::Exp(_)
+                    | RowRule::Sin { .. }
+                    | RowRule::Cos { .. }
+            )
+        };
+        {
+            let mut rules = rules;
+            rules.all(is_entire)
+        }
     }
 
     /// State with the loose parameters and zeros, as the wide plan begins.
