@@ -31,6 +31,9 @@ const FURTHER: [i64; 8] = [
 /// Number of its errors above which a power is not 0: that of a logarithm falls to 0 slowly.
 const CLEAR: f64 = 4.0;
 
+/// Share of a quotient that its noise is at most where a power is looked for.
+const KNOWN: f64 = 1e-2;
+
 /// Roundings of the constant below which quotients do not differ.
 const ROUNDINGS: f64 = 16.0;
 
@@ -189,12 +192,12 @@ impl Quotients {
 
     /// The power of the parameter that they follow, if it settles to one that is not 0.
     fn power(&self) -> Option<f64> {
+        let shares = self.quotients.iter().zip(&self.noises).map(|(q, noise)| noise / q);
+        let shares: Vec<f64> = shares.take_while(|share| *share < KNOWN).collect();
         let logs = |pair: &[f64]| libm::log(pair[1] / pair[0]);
-        let steps: Vec<f64> = self.values.windows(2).map(logs).collect();
+        let steps: Vec<f64> = self.values[..shares.len()].windows(2).map(logs).collect();
         let powers: Vec<f64> =
             self.quotients.windows(2).zip(&steps).map(|(pair, step)| logs(pair) / step).collect();
-        let shares: Vec<f64> =
-            self.quotients.iter().zip(&self.noises).map(|(q, n)| n / q).collect();
         let noise = |(pair, step): (&[f64], &f64)| {
             (pair[0] + pair[1] + ROUNDINGS * f64::EPSILON) / step.abs()
         };

@@ -1,20 +1,31 @@
-//! Boxes about a closed orbit that hold no other one: they are as wide as a claim about it is vague.
+//! Boxes about a closed orbit that hold no other one which begins as near to a start.
+//!
+//! ```text
+//! states nearer to the start than the orbit ─ to its phase ─▶ box of node 0 ─ steps ─▶ boxes of all nodes
+//! ```
+//!
+//! A closed orbit that begins in the first box, with a period in its box, goes through the others. If
+//! Krawczyk's operator maps all of them into their interior, there is one zero in them: the orbit found.
 
 use super::course::Course;
 use super::division::DIVISIONS;
+use super::enclosure::{Enclosure, raised};
+use super::motion::Boxed;
+use super::shooting::{boxes, combined, times};
 use super::{MOST_UNKNOWNS, Obstacle, OrbitSearch, Request, prepared};
 
-/// Sides of the boxes of states against those that hold the start, or what the motion covers in the
-/// doubt about the period: some have room for both.
-const WIDER: [f64; 5] = [1.5, 5.0, 30.0, 300.0, 3000.0];
+/// Factors by which boxes are made wider than those that hold all motions from the first: some have
+/// room for Krawczyk's operator.
+const WIDER: [f64; 4] = [1.01, 5.0, 30.0, 300.0];
+/// Change of the velocity within the first box that is allowed for.
+const TURN: f64 = 1.1;
+/// Share of what a motion covers in the doubt about the period, that is the least side of the boxes.
+const LEAST: f64 = 0.1;
 /// Share of a period by which its sum over segments may be off.
 const ROUNDING: f64 = 1e-13;
 
-/// Whether boxes are proved to hold a single closed orbit that contain the start of a request, and all
-/// periods within `unit` of its period.
-///
-/// What is true of that orbit is then true of each that begins in the box of the start, goes through
-/// those of the nodes, and has such a period.
+/// Whether the closed orbit near the start of a request is proved to be the only one that begins as near
+/// to the start and has a period within `unit` of that of the request.
 pub fn is_alone(request: &Request<'_>, unit: f64) -> Result<bool, Obstacle> {
     let state = request.state();
     let (shooting, _) = prepared(request, &state)?;
@@ -33,18 +44,70 @@ pub fn is_alone(request: &Request<'_>, unit: f64) -> Result<bool, Obstacle> {
         let gaps = nodes.states[0].iter().zip(&state).map(|(x, y)| (x - y).abs());
         let gap = gaps.fold(0.0, f64::max);
         let late = (nodes.period - request.period).abs() + unit;
-        let late = late + ROUNDING * (nodes.period + request.period);
-        let speed = search.frames.phase.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let late = 1.01 * (late + ROUNDING * (nodes.period + request.period));
+        let Some(first) = search.first_radius(gap, late) else { continue };
+        let Some(tube) = search.tube(first, late) else { continue };
         let course = Course { search: &search, offsets: &offsets, radii: &offsets };
-        let count = offsets.len();
+        let largest = tube.iter().copied().fold(0.0, f64::max);
+        let alike = vec![largest; tube.len()];
+        let with_period = |radii: &[f64], wider: f64| -> Vec<f64> {
+            radii.iter().map(|radius| wider * radius).chain([late]).collect()
+        };
         let alone = WIDER.iter().any(|wider| {
-            let mut radii = vec![wider * gap.max(0.1 * speed * late); count];
-            radii[count - 1] = 1.01 * late;
-            gap < radii[0] && course.is_unique(&radii)
+            [&tube, &alike].into_iter().any(|radii| course.is_unique(&with_period(radii, *wider)))
         });
         if alone {
             return Ok(true);
         }
     }
     Ok(false)
+}
+
+impl OrbitSearch<'_> {
+    /// Radius of a box about the first node that holds all motions that begin no farther from the start
+    /// than `gap`, the distance of this node, where they have its phase. `None` where the velocity is
+    /// not nearly the same all over the box.
+    fn first_radius(&self, gap: f64, late: f64) -> Option<f64> {
+        let phase = &self.frames.phase;
+        let norm = |power: i32| phase.iter().map(|x| x.abs().powi(power)).sum::<f64>();
+        let (sum, square) = (norm(1), norm(2));
+        let largest = phase.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
+        // Such a state x has |x - x̂₀| ≤ 2 gap, and comes to the phase in a time of |(v̂, x - x̂₀)|/(v̂, v).
+        let reach = 2.0 * gap * (1.0 + TURN * TURN * sum * largest / square);
+        let radius = (TURN * reach).max(LEAST * square.sqrt() * late);
+        let node: Boxed =
+            self.nodes.states[0].iter().map(|x| Enclosure::about(*x, radius)).collect();
+        let field = self.shooting.motion.field(&[node]).pop()?;
+        let along = combined(phase, &field);
+        let is_fast = (along - Enclosure::exact(square / TURN)).is_positive();
+        let is_slow = field.iter().all(|x| x.magnitude() <= TURN * largest);
+        (is_fast && is_slow).then_some(radius)
+    }
+
+    /// Radii of boxes about all nodes through which all motions go that begin in a box of this radius
+    /// about the first, at the shares of each period within `late` of the nodes'.
+    fn tube(&self, first: f64, late: f64) -> Option<Vec<f64>> {
+        let Self { shooting, nodes, .. } = self;
+        let n = shooting.motion.dimension;
+        let steps = times(nodes, Enclosure::about(nodes.period, late));
+        let mut radii = vec![first; n * nodes.states.len()];
+        for (index, next) in (1..nodes.states.len()).enumerate() {
+            let all: Vec<f64> = radii.iter().copied().chain([late]).collect();
+            let start = boxes(nodes, Some(&all)).swap_remove(index);
+            let passage = shooting.motion.passages(&[start], &steps[index..=index]).pop()??;
+            let node = boxes(nodes, None).swap_remove(index);
+            let field = shooting.motion.field(std::slice::from_ref(&passage.end)).pop()?;
+            let middle = shooting.motion.passages(&[node], &[Enclosure::exact(steps[index].mid)]);
+            let middle = middle.into_iter().next()??;
+            for row in 0..n {
+                let gap = middle.end[row] - Enclosure::exact(nodes.states[next][row]);
+                let own = &radii[n * index..n * (index + 1)];
+                let moved: f64 =
+                    passage.derivative[row].iter().zip(own).map(|(d, r)| d.magnitude() * r).sum();
+                let delayed = field[row].magnitude() * steps[index].rad;
+                radii[n * next + row] = raised(gap.magnitude() + moved + delayed, n + 3);
+            }
+        }
+        radii.iter().all(|radius| radius.is_finite()).then_some(radii)
+    }
 }

@@ -8,6 +8,7 @@ use super::sharp;
 use super::tail::{self, End};
 use crate::error::FlowError;
 use crate::motion::presence::as_written;
+use crate::taylor::form::Row;
 use crate::taylor::program::TaylorProgram;
 use liouville::graph::{Expr, record};
 use liouville::mechanics::Phase;
@@ -20,9 +21,10 @@ use num_dual::Dual;
 /// Order of the series, where it is not chosen.
 pub const ORDER: usize = 20;
 
-/// Limit on the halves of a step, and ratio of the radius of its norm to it that leaves room for a box.
+/// Limit on the halves of a step, and ratio of the radius of its norm to it: above the least one by a
+/// shrink, for boxes.
 const MOST_HALVES: usize = 2 * BOXES;
-const ROOM: f64 = 3.0;
+const ROOM: f64 = 1.8;
 
 /// Box of states, an enclosure for each component.
 pub type Boxed = Vec<Enclosure>;
@@ -169,28 +171,24 @@ impl EnclosedMotion {
         steps(&self.full, self.order, &starts, h).into_iter().map(|end| end.map(passage)).collect()
     }
 
-    /// Longest step from a state, the one given or a half, quarter, … of it, that is proved with room
-    /// for a box about the state.
+    /// Longest step from a state, up to the one given, that is proved with room for a box about it.
     pub fn longest(&self, state: &[f64], step: f64) -> Option<f64> {
         let start = self.whole(state.iter().map(|x| Enclosure::exact(*x)).collect());
         let starts = vec![start; BOXES];
+        // Radii do not depend on steps, but are sought near them.
         (0..MOST_HALVES).step_by(BOXES).find_map(|first| {
-            let halves = |k: usize| step * 0.5f64.powi(i32::try_from(first + k).unwrap_or(0));
-            let steps_tried: Vec<Enclosure> =
-                (0..BOXES).map(|k| Enclosure::exact(halves(k))).collect();
-            let ends = steps(&self.full, self.order, &starts, &steps_tried);
-            let has_room = |(h, end): (&Enclosure, Option<End>)| {
-                (end?.radius >= ROOM * h.mid).then_some(h.mid)
-            };
-            steps_tried.iter().zip(ends).find_map(has_room)
+            let half = |k: usize| Enclosure::exact(step * 0.5f64.powi((first + k) as i32));
+            let tried: Vec<Enclosure> = (0..BOXES).map(half).collect();
+            let ends = steps(&self.full, self.order, &starts, &tried);
+            let radius = ends.into_iter().flatten().map(|end| end.radius).reduce(f64::max)?;
+            Some(step.min(radius / ROOM))
         })
     }
 
     /// Whether the field is a polynomial in the state and in exponentials, sines and cosines: it has
     /// neither poles nor branches.
     pub fn is_entire(&self) -> bool {
-        let rules = self.wide.operations.iter().map(|(_, rule)| rule);
-        let is_entire = |rule: &RowRule| {
+        let is_entire = |(_, rule): &(Row, RowRule)| {
             matches!(
                 rule,
                 RowRule::Sum(_)
@@ -200,10 +198,7 @@ impl EnclosedMotion {
                     | RowRule::Cos { .. }
             )
         };
-        {
-            let mut rules = rules;
-            rules.all(is_entire)
-        }
+        self.wide.operations.iter().all(is_entire)
     }
 
     /// State with the loose parameters and zeros, as the wide plan begins.
