@@ -21,12 +21,18 @@ const WIDER: [f64; 4] = [1.01, 5.0, 30.0, 300.0];
 const TURN: f64 = 1.1;
 /// Share of what a motion covers in the doubt about the period, that is the least side of the boxes.
 const LEAST: f64 = 0.1;
+/// Share of the first box within which an orbit begins that is the one in it.
+const NEXT: f64 = 0.1;
 /// Share of a period by which its sum over segments may be off.
 const ROUNDING: f64 = 1e-13;
 
-/// Whether the closed orbit near the start of a request is proved to be the only one that begins as near
-/// to the start and has a period within `unit` of that of the request.
-pub fn is_alone(request: &Request<'_>, unit: f64) -> Result<bool, Obstacle> {
+/// Whether a closed orbit that was found, from its start and period, is proved to be the only one that
+/// begins as near to the start of a request and has a period within `unit` of that of the request.
+pub fn is_alone(
+    request: &Request<'_>,
+    unit: f64,
+    found: (&[Enclosure], Enclosure),
+) -> Result<bool, Obstacle> {
     let state = request.state();
     let (shooting, _) = prepared(request, &state)?;
     let most = MOST_UNKNOWNS / request.model.dimension().max(1);
@@ -46,6 +52,9 @@ pub fn is_alone(request: &Request<'_>, unit: f64) -> Result<bool, Obstacle> {
         let late = (nodes.period - request.period).abs() + unit;
         let late = 1.01 * (late + ROUNDING * (nodes.period + request.period));
         let Some(first) = search.first_radius(gap, late) else { continue };
+        if !search.is_orbit(found, first, late) {
+            continue;
+        }
         let Some(tube) = search.tube(first, late) else { continue };
         let course = Course { search: &search, offsets: &offsets, radii: &offsets };
         let largest = tube.iter().copied().fold(0.0, f64::max);
@@ -82,6 +91,13 @@ impl OrbitSearch<'_> {
         let is_fast = (along - Enclosure::exact(square / TURN)).is_positive();
         let is_slow = field.iter().all(|x| x.magnitude() <= TURN * largest);
         (is_fast && is_slow).then_some(radius)
+    }
+
+    /// Whether an orbit found before begins next to the first node and has a period that counts here.
+    fn is_orbit(&self, (start, period): (&[Enclosure], Enclosure), first: f64, late: f64) -> bool {
+        let near = |(x, node): (&Enclosure, &f64)| (x.mid - node).abs() <= NEXT * first + x.rad;
+        (period.mid - self.nodes.period).abs() <= late + period.rad
+            && start.iter().zip(&self.nodes.states[0]).all(near)
     }
 
     /// Radii of boxes about all nodes through which all motions go that begin in a box of this radius

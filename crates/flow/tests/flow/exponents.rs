@@ -3,7 +3,7 @@
 use liouville::case::Case;
 use liouville::verdict::{ClaimReport, Options, Verdict, read_state};
 use liouville_flow::observe::observe;
-use liouville_flow::{Character, MapExponents, Start, iterates, map_exponents};
+use liouville_flow::{Character, MapExponents, Precision, Start, iterates, map_exponents};
 
 /// Report on a claim about the motion of a plane field from a start.
 fn judged(field: [&str; 2], start: [&str; 2], claim: &str) -> ClaimReport {
