@@ -192,8 +192,9 @@ impl<'w> Worker<'w> {
             // A state that is exactly 0 has no size; where it goes has.
             reach = Reach::new(&self.after_a_step(state, loose));
         }
-        let apart = self.equations.level.along_scaled(state, loose, &reach.scales(), 0);
-        let apart: Vec<f64> = apart.iter().map(|u| DISTANCE * u).collect();
+        let along = self.equations.level.along(state, loose, 0);
+        let factor = DISTANCE / reach.distance(&along);
+        let apart: Vec<f64> = along.iter().map(|u| factor * u).collect();
         reach.put(&apart);
         let beside = state.iter().zip(&apart).map(|(x, d)| *x + DoubleDouble::from_f64(*d));
         let shadow: Vec<DoubleDouble> = beside.chain(loose.iter().copied()).collect();
@@ -265,9 +266,6 @@ impl<'w> Worker<'w> {
         let distance = running.reach.distance(&gaps);
         if is_done || !(DISTANCE / FAR..=DISTANCE * FAR).contains(&distance) {
             running.record.grow(running.reach.growth(&gaps));
-            if is_done && running.record.is_before_blocks() {
-                running.reach.fix_norm();
-            }
             let factor = DISTANCE / distance;
             let back =
                 |(x, d): (&DoubleDouble, &DoubleDouble)| *x + *d * DoubleDouble::from_f64(factor);

@@ -212,11 +212,6 @@ impl Record {
         (done <= BLOCKS).then(|| self.time * SKIPPED + self.block() * done as f64)
     }
 
-    /// Whether the transient, which does not count, goes on.
-    pub fn is_before_blocks(&self) -> bool {
-        self.growth.is_empty()
-    }
-
     /// Records the length of the vector, which is then normalised.
     pub fn grow(&mut self, length: f64) {
         self.expanded += libm::log(length);

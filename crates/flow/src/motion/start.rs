@@ -237,27 +237,15 @@ impl LevelFunctions {
     /// Returns a unit vector tangent to the level set at a state, in no special direction;
     /// different for each index.
     pub fn along(&self, state: &[DoubleDouble], loose: &[DoubleDouble], index: usize) -> Vec<f64> {
-        self.along_scaled(state, loose, &vec![1.0; state.len()], index)
-    }
-
-    /// Returns such a vector whose components, divided by these scales, have the length 1.
-    pub fn along_scaled(
-        &self,
-        state: &[DoubleDouble],
-        loose: &[DoubleDouble],
-        scales: &[f64],
-        index: usize,
-    ) -> Vec<f64> {
         let outputs = self.values(state, loose);
-        let scaled = |row: &[f64]| row.iter().zip(scales).map(|(g, scale)| g * scale).collect();
         let gradients: Vec<Vec<f64>> =
-            outputs[self.equations..].chunks(state.len()).map(scaled).collect();
+            outputs[self.equations..].chunks(state.len()).map(<[f64]>::to_vec).collect();
         // Irrational directions: multiples of the golden ratio, and of √2.
         let ratio = if index == 0 { 0.618_033_988_75 } else { std::f64::consts::SQRT_2 };
         let any: Vec<f64> = (1..=state.len()).map(|k| (k as f64 * ratio).fract() - 0.37).collect();
         let along = rejection(&any, &gradients);
         let length = along.iter().map(|x| x * x).sum::<f64>().sqrt();
-        along.into_iter().zip(scales).map(|(x, scale)| x / length * scale).collect()
+        along.into_iter().map(|x| x / length).collect()
     }
 }
 

@@ -9,9 +9,10 @@
 
 use super::course::Course;
 use super::division::DIVISIONS;
-use super::enclosure::{Enclosure, raised};
+use super::enclosure::Enclosure;
+use super::forward::Cloud;
 use super::motion::Boxed;
-use super::shooting::{boxes, combined, times};
+use super::shooting::{combined, times};
 use super::{MOST_UNKNOWNS, Obstacle, OrbitSearch, Request, prepared};
 
 /// Factors by which boxes are made wider than those that hold all motions from the first: some have
@@ -59,8 +60,11 @@ pub fn is_alone(
         let course = Course { search: &search, offsets: &offsets, radii: &offsets };
         let largest = tube.iter().copied().fold(0.0, f64::max);
         let alike = vec![largest; tube.len()];
+        let speed = search.frames.phase.iter().map(|x| x * x).sum::<f64>().sqrt();
+        // Boxes about the period are as wide as those about the states, which change it.
+        let period = late.max(largest / speed);
         let with_period = |radii: &[f64], wider: f64| -> Vec<f64> {
-            radii.iter().map(|radius| wider * radius).chain([late]).collect()
+            radii.iter().chain([&period]).map(|radius| wider * radius).collect()
         };
         let alone = WIDER.iter().any(|wider| {
             [&tube, &alike].into_iter().any(|radii| course.is_unique(&with_period(radii, *wider)))
@@ -104,26 +108,24 @@ impl OrbitSearch<'_> {
     /// about the first, at the shares of each period within `late` of the nodes'.
     fn tube(&self, first: f64, late: f64) -> Option<Vec<f64>> {
         let Self { shooting, nodes, .. } = self;
-        let n = shooting.motion.dimension;
+        let motion = &shooting.motion;
         let steps = times(nodes, Enclosure::about(nodes.period, late));
-        let mut radii = vec![first; n * nodes.states.len()];
-        for (index, next) in (1..nodes.states.len()).enumerate() {
-            let all: Vec<f64> = radii.iter().copied().chain([late]).collect();
-            let start = boxes(nodes, Some(&all)).swap_remove(index);
-            let passage = shooting.motion.passages(&[start], &steps[index..=index]).pop()??;
-            let node = boxes(nodes, None).swap_remove(index);
-            let field = shooting.motion.field(std::slice::from_ref(&passage.end)).pop()?;
-            let middle = shooting.motion.passages(&[node], &[Enclosure::exact(steps[index].mid)]);
-            let middle = middle.into_iter().next()??;
-            for row in 0..n {
-                let gap = middle.end[row] - Enclosure::exact(nodes.states[next][row]);
-                let own = &radii[n * index..n * (index + 1)];
-                let moved: f64 =
-                    passage.derivative[row].iter().zip(own).map(|(d, r)| d.magnitude() * r).sum();
-                let delayed = field[row].magnitude() * steps[index].rad;
-                radii[n * next + row] = raised(gap.magnitude() + moved + delayed, n + 3);
-            }
+        let begin: Boxed = nodes.states[0].iter().map(|x| Enclosure::about(*x, first)).collect();
+        let mut cloud = Cloud::about(&begin);
+        let mut radii = vec![first; motion.dimension];
+        for (index, target) in nodes.states.iter().enumerate().skip(1) {
+            let (node, h) = (&nodes.states[index - 1], steps[index - 1]);
+            let passage = motion.passages(&[cloud.hull()], &[h]).pop()??;
+            let node: Boxed = node.iter().map(|x| Enclosure::exact(*x)).collect();
+            let middle = motion.passages(&[node], &[Enclosure::exact(h.mid)]).pop()??;
+            let field = motion.field(std::slice::from_ref(&passage.end)).pop()?;
+            let late = Enclosure::about(0.0, h.rad);
+            let gap: Boxed = (middle.end.iter().zip(target).zip(field))
+                .map(|((x, y), rate)| *x - Enclosure::exact(*y) + rate * late)
+                .collect();
+            cloud = cloud.moved(&passage, &gap, target)?;
+            radii.extend(cloud.hull().iter().map(|x| x.rad));
         }
-        radii.iter().all(|radius| radius.is_finite()).then_some(radii)
+        Some(radii)
     }
 }

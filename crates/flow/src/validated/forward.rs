@@ -149,7 +149,7 @@ fn is_inside(inner: &[Enclosure], outer: &[Enclosure]) -> bool {
 }
 
 /// The set of points p + Q w with |w| ≤ r, component by component.
-struct Cloud {
+pub(super) struct Cloud {
     centre: Vec<f64>,
     /// Q by columns.
     frame: Vec<Vec<f64>>,
@@ -157,7 +157,8 @@ struct Cloud {
 }
 
 impl Cloud {
-    fn about(state: &[Enclosure]) -> Self {
+    /// All points of a box.
+    pub(super) fn about(state: &[Enclosure]) -> Self {
         let n = state.len();
         let axis = |k: usize| (0..n).map(|j| if j == k { 1.0 } else { 0.0 }).collect();
         Self {
@@ -168,7 +169,7 @@ impl Cloud {
     }
 
     /// Box around all points.
-    fn hull(&self) -> Boxed {
+    pub(super) fn hull(&self) -> Boxed {
         let n = self.centre.len();
         let reach = |k: usize| {
             let parts = self.frame.iter().zip(&self.radii);
@@ -192,7 +193,12 @@ impl Cloud {
     }
 
     /// Set of points after a step, around a target. `None` if it is too large to be of use.
-    fn moved(&self, passage: &EnclosedPassage, gap: &[Enclosure], target: &[f64]) -> Option<Self> {
+    pub(super) fn moved(
+        &self,
+        passage: &EnclosedPassage,
+        gap: &[Enclosure],
+        target: &[f64],
+    ) -> Option<Self> {
         let product = |row: &Boxed, column: &[f64]| {
             let terms = row.iter().zip(column);
             terms.fold(Enclosure::ZERO, |sum, (x, y)| sum + *x * Enclosure::exact(*y))

@@ -91,7 +91,7 @@ pub fn drawn(
     let fixed = options.crossing.plane.fixed(case)?;
     let fixed =
         fixed.iter().map(|own| facts::equation(own.function.name(), &own.value.to_string()));
-    let section = plain("section ").then(math(request.surface.text()));
+    let section = facts::section(Some(request.surface.text()));
     Ok(Drawn {
         title: case.title.clone(),
         facts: facts::listed(

@@ -5,9 +5,6 @@ use crate::taylor::number::SeriesNumber;
 /// Number of last terms that are looked at: all but the last two may be left out by a gap, as in x⁴.
 const TAILS: usize = 6;
 
-/// Part of a piece that is taken where its terms are too large for f64, as before an end that is far off.
-const OVERFLOWN: f64 = 1.0 / 1024.0;
-
 /// Values of functions at the ends of their pieces, a piece in each lane. They decide whether a
 /// function can vanish.
 pub struct Ends<T> {
@@ -108,9 +105,6 @@ impl<T: SeriesNumber> Ends<T> {
     pub fn known_share(&self, lane: usize, count: usize, rate: f64) -> f64 {
         let at = |value: T| value.lane(lane).leading();
         let largest = at(self.largest);
-        if largest == f64::INFINITY {
-            return OVERFLOWN;
-        }
         let orders = (0..count).rev();
         let tails = self.tails.iter().rev().map(|tail| at(*tail)).zip(orders);
         let share = tails.filter(|(tail, _)| *tail != 0.0).take(2).map(|(tail, n)| {

@@ -140,16 +140,3 @@ fn roots_of_polynomials_far_from_a_start_are_found() {
         assert_eq!(found.len(), roots.len(), "{surface}");
     }
 }
-
-#[test]
-fn pulses_far_apart_are_all_crossed_though_a_section_has_no_end() {
-    let case = field(&[("x", "max(exp(-2*(t - 5)^2), exp(-2*(t - 45)^2))"), ("t", "1")]);
-    let surface = "max(exp(-2*(t - 5)^2), exp(-2*(t - 45)^2)) = 1/2";
-    let found = crossings(&case, surface, "x=0 t=0", 4);
-    let half = (2f64.ln() / 2.0).sqrt();
-    for ((time, _), known) in found.iter().zip([5.0 - half, 5.0 + half, 45.0 - half, 45.0 + half]) {
-        assert!((time - known).abs() < 1e-9, "{time}, not {known}");
-    }
-    let found = crossings(&case, "x = 2", "x=0 t=0", 1);
-    assert!((found[0].0 - 45.0).abs() < 1.0, "the second pulse lifts x: {found:?}");
-}
