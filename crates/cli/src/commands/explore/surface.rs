@@ -7,7 +7,6 @@ use crate::report::surface::{SurfaceReport, plot};
 use liouville::case::{Case, Direction};
 use liouville::number::double_double::DoubleDouble;
 use liouville::part::Part;
-use liouville_draw::{math, plain};
 use liouville_flow::{
     Begin, Columns, CrossingSurface, Fixed, FlowError, Launches, Launchpad, Lexicon, Precision,
     SurfaceOrbit, SurfaceRequest,
