@@ -9,21 +9,19 @@
 
 use super::course::Course;
 use super::division::DIVISIONS;
-use super::enclosure::{Enclosure, raised};
+use super::enclosure::Enclosure;
 use super::forward::Cloud;
 use super::motion::Boxed;
 use super::shooting::{combined, times};
 use super::{MOST_UNKNOWNS, Obstacle, OrbitSearch, Request, prepared};
 
-/// Factors by which boxes are made wider than those that hold all motions from the first: some have
+/// Factors by which boxes are made wider than those that hold all orbits from the first: some have
 /// room for Krawczyk's operator.
-const WIDER: [f64; 4] = [1.01, 5.0, 30.0, 300.0];
+const WIDER: [f64; 4] = [1.5, 5.0, 30.0, 300.0];
+/// Sides of further boxes, in what a motion covers in the doubt about the period.
+const WIDE: [f64; 5] = [0.15, 0.5, 3.0, 30.0, 300.0];
 /// Change of the velocity within the first box that is allowed for.
 const TURN: f64 = 1.1;
-/// Shares of the doubt about the period within which closed orbits are sought; beyond them motions are
-/// not back at the phase, in ranges of times from one end to a multiple of it.
-const SHARES: [f64; 4] = [1e-4, 1e-2, 0.1, 1.0];
-const STRETCH: f64 = 3.0;
 /// Share of the first box within which an orbit begins that is the one in it.
 const NEXT: f64 = 0.25;
 /// Share of a period by which its sum over segments may be off.
@@ -60,37 +58,21 @@ pub fn is_alone(
         if !search.is_orbit(found, first, late) {
             continue;
         }
+        let Some(reach) = search.reach(first, late) else { continue };
         let course = Course { search: &search, offsets: &offsets, radii: &offsets };
-        let is_alone = |share: &f64| {
-            let near = share * late;
-            search.closes_near(first, near, late) && course.is_unique_within(first, near)
-        };
-        if SHARES.iter().any(is_alone) {
+        let speed = search.frames.phase.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let sides = WIDER.iter().map(|wider| wider * reach);
+        let sides = sides.chain(WIDE.iter().map(|share| share * speed * late));
+        let alone = sides.filter(|side| *side >= reach).any(|side| {
+            let mut radii = vec![side; offsets.len()];
+            radii[offsets.len() - 1] = late;
+            course.is_unique(&radii)
+        });
+        if alone {
             return Ok(true);
         }
     }
     Ok(false)
-}
-
-impl Course<'_> {
-    /// Whether one closed orbit begins in a box of this radius about the first node, with a period within
-    /// `late` of that of the nodes.
-    fn is_unique_within(&self, first: f64, late: f64) -> bool {
-        let nodes = &self.search.nodes;
-        let period = Enclosure::about(nodes.period, late);
-        let Some((tube, _)) = self.search.carried(first, period) else { return false };
-        let largest = tube.iter().copied().fold(0.0, f64::max);
-        let alike = vec![largest; tube.len()];
-        let speed = self.search.frames.phase.iter().map(|x| x * x).sum::<f64>().sqrt();
-        // Boxes about the period are as wide as those about the states, which change it.
-        let period = late.max(largest / speed);
-        WIDER.iter().any(|wider| {
-            [&tube, &alike].into_iter().any(|radii| {
-                let radii = radii.iter().chain([&period]).map(|radius| wider * radius);
-                self.is_unique(&radii.collect::<Vec<f64>>())
-            })
-        })
-    }
 }
 
 impl OrbitSearch<'_> {
@@ -98,20 +80,52 @@ impl OrbitSearch<'_> {
     /// than `gap`, the distance of this node, where they have its phase. `None` where the velocity is
     /// not nearly the same all over the box.
     fn first_radius(&self, gap: f64) -> Option<f64> {
+        // Such a state x has |x - x̂₀| ≤ 2 gap, and comes to the phase in a time of |(v̂, x - x̂₀)|/(v̂, v).
+        let radius = TURN * 2.0 * gap * (1.0 + TURN * self.slant());
+        self.is_even(radius).then_some(radius)
+    }
+
+    /// Distance along the motion that the phase hides, against that of a state from the first node.
+    fn slant(&self) -> f64 {
         let phase = &self.frames.phase;
         let norm = |power: i32| phase.iter().map(|x| x.abs().powi(power)).sum::<f64>();
-        let (sum, square) = (norm(1), norm(2));
         let largest = phase.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
-        // Such a state x has |x - x̂₀| ≤ 2 gap, and comes to the phase in a time of |(v̂, x - x̂₀)|/(v̂, v).
-        let reach = 2.0 * gap * (1.0 + TURN * TURN * sum * largest / square);
-        let radius = TURN * reach;
+        TURN * norm(1) * largest / norm(2)
+    }
+
+    /// Whether the velocity is nearly that at the first node in a box of this radius about it.
+    fn is_even(&self, radius: f64) -> bool {
+        let phase = &self.frames.phase;
+        let square = phase.iter().map(|x| x * x).sum::<f64>();
+        let largest = phase.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
         let node: Boxed =
             self.nodes.states[0].iter().map(|x| Enclosure::about(*x, radius)).collect();
-        let field = self.shooting.motion.field(&[node]).pop()?;
+        let Some(field) = self.shooting.motion.field(&[node]).pop() else { return false };
         let along = combined(phase, &field);
         let is_fast = (along - Enclosure::exact(square / TURN)).is_positive();
-        let is_slow = field.iter().all(|x| x.magnitude() <= TURN * largest);
-        (is_fast && is_slow).then_some(radius)
+        is_fast && field.iter().all(|x| x.magnitude() <= TURN * largest)
+    }
+
+    /// Radius of boxes about all nodes through which all closed orbits go that begin in a box of this
+    /// radius about the first, with periods within `late` of that of the nodes.
+    ///
+    /// After the period of the nodes their motions are in the tube of the box. Where the velocity is
+    /// nearly constant they come back to the phase, and so to their beginning, in a time that crosses
+    /// the tube; at each node they are no later than that.
+    fn reach(&self, first: f64, late: f64) -> Option<f64> {
+        let phase = &self.frames.phase;
+        let largest = phase.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
+        let tube = self.tube(first)?;
+        if !self.is_even(tube + TURN * largest * late) {
+            return None;
+        }
+        let delay = self.slant() * (tube + first) / largest;
+        let states: Vec<Boxed> = (self.nodes.states.iter())
+            .map(|state| state.iter().map(|x| Enclosure::about(*x, tube)).collect())
+            .collect();
+        let fields = self.shooting.motion.field(&states);
+        let fastest = fields.iter().flatten().fold(0.0, |a: f64, x| a.max(x.magnitude()));
+        Some(tube + TURN * fastest * delay).filter(|reach| reach.is_finite())
     }
 
     /// Whether an orbit found before begins next to the first node and has a period that counts here.
@@ -121,45 +135,25 @@ impl OrbitSearch<'_> {
             && start.iter().zip(&self.nodes.states[0]).all(near)
     }
 
-    /// Whether no motion from a box of this radius about the first node, at its phase, is back at the
-    /// phase after a time that differs from the period by more than `near`, and less than `late`.
-    fn closes_near(&self, first: f64, near: f64, late: f64) -> bool {
-        let ends = std::iter::successors(Some(near), |end| Some(STRETCH * end));
-        let ranges = ends.take_while(|end| *end < late).map(|end| [end, (STRETCH * end).min(late)]);
-        ranges.flat_map(|range| [range, range.map(|end| -end)]).all(|[from, to]| {
-            let (middle, half) = (0.5 * (from + to), 0.5 * (to - from).abs());
-            let period = Enclosure::about(self.nodes.period + middle, 1.01 * half);
-            let Some((_, end)) = self.carried(first, period) else { return false };
-            let origin = self.nodes.states[0].iter().map(|x| Enclosure::exact(*x));
-            let gap: Boxed = end.iter().zip(origin).map(|(x, o)| *x - o).collect();
-            let height = combined(&self.frames.phase, &gap);
-            height.is_positive() || (-height).is_positive()
-        })
-    }
-
-    /// Radii of boxes about all nodes through which all motions go that begin in a box of this radius
-    /// about the first, at the shares of these periods, and the box of their ends.
-    fn carried(&self, first: f64, period: Enclosure) -> Option<(Vec<f64>, Boxed)> {
+    /// Largest radius of boxes about all nodes, and about the first one after the period, through which
+    /// all motions go that begin in a box of this radius about the first.
+    fn tube(&self, first: f64) -> Option<f64> {
         let Self { shooting, nodes, .. } = self;
         let motion = &shooting.motion;
         let begin: Boxed = nodes.states[0].iter().map(|x| Enclosure::about(*x, first)).collect();
         let mut cloud = Cloud::about(&begin);
-        let mut radii = Vec::new();
-        for (h, node) in times(nodes, period).into_iter().zip(&nodes.states) {
-            let hull = cloud.hull();
-            let reach = |(x, node): (&Enclosure, &f64)| raised((x.mid - node).abs() + x.rad, 2);
-            radii.extend(hull.iter().zip(node).map(reach));
-            let centre: Boxed = hull.iter().map(|x| Enclosure::exact(x.mid)).collect();
-            let passage = motion.passages(&[hull], &[h]).pop()??;
-            let middle = motion.passages(&[centre], &[Enclosure::exact(h.mid)]).pop()??;
-            let target: Vec<f64> = middle.end.iter().map(|x| x.mid).collect();
-            let field = motion.field(std::slice::from_ref(&passage.end)).pop()?;
-            let late = Enclosure::about(0.0, h.rad);
-            let gap: Boxed = (middle.end.iter().zip(&target).zip(field))
-                .map(|((x, y), rate)| *x - Enclosure::exact(*y) + rate * late)
-                .collect();
-            cloud = cloud.moved(&passage, &gap, &target)?;
+        let mut largest = first;
+        let steps = times(nodes, Enclosure::exact(nodes.period));
+        for (index, h) in steps.into_iter().enumerate() {
+            let target = &nodes.states[(index + 1) % nodes.states.len()];
+            let node: Boxed = nodes.states[index].iter().map(|x| Enclosure::exact(*x)).collect();
+            let passage = motion.passages(&[cloud.hull()], &[h]).pop()??;
+            let middle = motion.passages(&[node], &[h]).pop()??;
+            let ends = middle.end.iter().zip(target);
+            let gap: Boxed = ends.map(|(x, y)| *x - Enclosure::exact(*y)).collect();
+            cloud = cloud.moved(&passage, &gap, target)?;
+            largest = cloud.hull().iter().fold(largest, |a, x| a.max(x.rad));
         }
-        Some((radii, cloud.hull()))
+        Some(largest)
     }
 }
