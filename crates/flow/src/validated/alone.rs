@@ -13,13 +13,15 @@ use super::enclosure::Enclosure;
 use super::forward::Cloud;
 use super::motion::Boxed;
 use super::shooting::{combined, times};
-use super::{MOST_UNKNOWNS, Obstacle, OrbitSearch, Request, prepared};
+use super::{LEAST_RADIUS, MOST_UNKNOWNS, Obstacle, OrbitSearch, Request, prepared};
 
 /// Factors by which boxes are made wider than those that hold all orbits from the first: some have
 /// room for Krawczyk's operator.
 const WIDER: [f64; 4] = [1.5, 5.0, 30.0, 300.0];
 /// Sides of further boxes, in what a motion covers in the doubt about the period.
 const WIDE: [f64; 5] = [0.15, 0.5, 3.0, 30.0, 300.0];
+/// Factors by which boxes that are foreseen to hold a tube are wider than its first one.
+const ROOMS: [f64; 5] = [4.0, 30.0, 300.0, 3e3, 3e4];
 /// Change of the velocity within the first box that is allowed for.
 const TURN: f64 = 1.1;
 /// Share of the first box within which an orbit begins that is the one in it.
@@ -140,20 +142,33 @@ impl OrbitSearch<'_> {
     fn tube(&self, first: f64) -> Option<f64> {
         let Self { shooting, nodes, .. } = self;
         let motion = &shooting.motion;
-        let begin: Boxed = nodes.states[0].iter().map(|x| Enclosure::about(*x, first)).collect();
-        let mut cloud = Cloud::about(&begin);
-        let mut largest = first;
         let steps = times(nodes, Enclosure::exact(nodes.period));
-        for (index, h) in steps.into_iter().enumerate() {
-            let target = &nodes.states[(index + 1) % nodes.states.len()];
-            let node: Boxed = nodes.states[index].iter().map(|x| Enclosure::exact(*x)).collect();
-            let passage = motion.passages(&[cloud.hull()], &[h]).pop()??;
-            let middle = motion.passages(&[node], &[h]).pop()??;
-            let ends = middle.end.iter().zip(target);
-            let gap: Boxed = ends.map(|(x, y)| *x - Enclosure::exact(*y)).collect();
-            cloud = cloud.moved(&passage, &gap, target)?;
-            largest = cloud.hull().iter().fold(largest, |a, x| a.max(x.rad));
-        }
-        Some(largest)
+        let about = |side: f64| -> Vec<Boxed> {
+            let boxed =
+                |state: &Vec<f64>| state.iter().map(|x| Enclosure::about(*x, side)).collect();
+            nodes.states.iter().map(boxed).collect()
+        };
+        let middles: Option<Vec<_>> = motion.passages(&about(0.0), &steps).into_iter().collect();
+        let middles = middles?;
+        let size = nodes.states.iter().flatten().fold(0.0, |a: f64, x| a.max(x.abs()));
+        let least = first.max(LEAST_RADIUS * size);
+        // Passages from boxes that are foreseen to hold the tube, all at once.
+        ROOMS.iter().find_map(|room| {
+            let starts = about(room * least);
+            let passages: Option<Vec<_>> = motion.passages(&starts, &steps).into_iter().collect();
+            let (mut cloud, mut largest) = (Cloud::about(&about(first)[0]), first);
+            for (index, passage) in passages?.iter().enumerate() {
+                let hull = cloud.hull();
+                if !hull.iter().zip(&starts[index]).all(|(x, room)| x.is_within(*room)) {
+                    return None;
+                }
+                let target = &nodes.states[(index + 1) % nodes.states.len()];
+                let ends = middles[index].end.iter().zip(target);
+                let gap: Boxed = ends.map(|(x, y)| *x - Enclosure::exact(*y)).collect();
+                cloud = cloud.moved(passage, &gap, target)?;
+                largest = cloud.hull().iter().fold(largest, |a, x| a.max(x.rad));
+            }
+            Some(largest)
+        })
     }
 }
