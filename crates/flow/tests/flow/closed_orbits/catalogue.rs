@@ -18,8 +18,6 @@ const CASES: &[&str] = &[
     "figures/fig-A1-i.toml",
     "figures/fig-A4-h.toml",
     "figures/fig-A4-i.toml",
-    "spin/rattleback-reversal.toml",
-    "spin/spin-friction-motion.toml",
 ];
 
 #[test]
