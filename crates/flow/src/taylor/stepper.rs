@@ -203,11 +203,6 @@ impl<T: SeriesNumber> Stepper<T> {
         }
     }
 
-    /// Takes this share of a motion's step.
-    pub fn shorten(&mut self, lane: usize, share: f64) {
-        self.lanes[lane].step = self.lanes[lane].step * T::One::float(share);
-    }
-
     /// Puts all states after a fraction of their steps into `states`, without the remainders.
     pub fn within(&self, share: f64, states: &mut Vec<T>) {
         states.clear();
