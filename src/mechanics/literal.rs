@@ -86,6 +86,21 @@ impl Phase<'_, Expr> {
         })
     }
 
+    /// Records the inverses of what the equations of motion are divided by, where nothing is known of it: a claim that
+    /// says something of motions says nothing where one of them has no value, and nobody knows whether motions do.
+    pub fn open_divisors(&self) -> Vec<Expr> {
+        match &self.model().system {
+            System::Lagrangian(own) if !own.has_known_divisors(self.model()) => {
+                let divisors = divisors_of(|| {
+                    self.with(&[], &self.state()).field();
+                });
+                let inverse = |divisor: Expr| literally(|| divisor.apply(UnaryFunction::Recip));
+                divisors.into_iter().map(inverse).collect()
+            }
+            _ => Vec::new(),
+        }
+    }
+
     /// Evaluates as written what a formula has no value without, though its value need not show it: the
     /// integrand of each ∫, also of the parameters in it, and the logarithm of the base of each power
     /// with an exponent that varies, which may come out as a whole number.

@@ -20,8 +20,12 @@ impl Judging<'_> {
         sampler: &Sampler,
     ) -> Result<(), JudgeError> {
         let rates = self.rates_at(place);
+        // The whole level has been examined before, but not parts of it without drawn states.
         if rates.is_empty() {
-            return Ok(());
+            return match sampler.is_part() {
+                true => Ok(self.check_slopes(sampler)?),
+                false => Ok(()),
+            };
         }
         let values = self.run(&rates).at(&Ball::<TAPE_LANES>, &sampler.balls(0));
         let is_state = values.existing(&[]);

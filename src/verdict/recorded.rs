@@ -8,7 +8,7 @@ use super::physics;
 use super::run::Values;
 use crate::case::{Expect, PlacedClaim};
 use crate::claim::{
-    Condition, LevelSubset, Novelty, ResidualContext, level_at, quadrature_defects,
+    Condition, LevelSubset, Novelty, OfMotions, ResidualContext, level_at, quadrature_defects,
 };
 use crate::formula::Formula;
 use crate::graph::{Expr, literally};
@@ -41,7 +41,11 @@ pub struct Wider {
 impl<'c> RecordedClaim<'c> {
     /// Records the residual of a claim, at its place and in wider ones, and its context.
     pub fn new(claim: &'c PlacedClaim, jet: &DualPoint<'_, Expr>) -> Self {
-        let presence = claim.kind.presence(jet, &claim.place.kept).into_iter();
+        let model = jet.phase.model();
+        let names_rates = || claim.kind.formulas().into_iter().any(|own| model.has_rates(own));
+        let is_of_motions = claim.kind.of_motions() != OfMotions::Nothing || names_rates();
+        let open = if is_of_motions { jet.phase.open_divisors() } else { Vec::new() };
+        let presence = claim.kind.presence(jet, &claim.place.kept).into_iter().chain(open);
         let presence: Vec<Expr> = presence.filter(|value| !value.is_always_defined()).collect();
         // 0 where the value exists, and undefined elsewhere.
         let zeros: Vec<Expr> =

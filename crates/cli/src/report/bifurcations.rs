@@ -170,7 +170,7 @@ impl DiagramReport<'_> {
 
     /// Words below the picture.
     pub fn caption(&self) -> Text {
-        let section = plain(&facts::unbroken(&self.section().replace('-', "−")));
+        let section = facts::section(self.surface);
         facts::listed(std::iter::once(section).chain(facts::parameters(self.case, &[self.name])))
     }
 }

@@ -256,14 +256,9 @@ impl BranchReport<'_> {
 
     /// Words below the picture.
     pub fn caption(&self) -> Text {
-        let section = match self.surface {
-            Some(surface) => format!("section {}", surface.replace('-', "−")),
-            None => "section g = g₀".to_string(),
-        };
         let crossings =
             format!("{} crossing{}", self.period, if self.period == 1 { "" } else { "s" });
-        let mut found =
-            vec![plain(&facts::unbroken(&section)), plain(&facts::unbroken(&crossings))];
+        let mut found = vec![facts::section(self.surface), plain(&facts::unbroken(&crossings))];
         found.extend(facts::parameters(self.case, &[self.name]));
         facts::listed(found)
     }

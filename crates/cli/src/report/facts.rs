@@ -26,6 +26,29 @@ pub fn equation(name: &str, value: &str) -> Text {
     math(name).then(plain(&unbroken(&format!(" = {}", value.replace('-', "−")))))
 }
 
+/// Surface of a section, set as an equation; that of a rolling body without one.
+pub fn section(surface: Option<&str>) -> Text {
+    let Some(surface) = surface else {
+        return plain("section\u{a0}")
+            .then(math("g"))
+            .then(plain("\u{a0}=\u{a0}"))
+            .then(math("g_0"));
+    };
+    let sides: Vec<&str> = surface.split('=').map(str::trim).collect();
+    let sides = sides.into_iter().map(|side| math(&unbroken(side)));
+    let equation = sides.reduce(|left, right| left.then(plain("\u{a0}=\u{a0}")).then(right));
+    plain("section\u{a0}").then(equation.unwrap_or_default())
+}
+
+/// State at which motions start: its components but those of some names, or nothing if they are many.
+pub fn start(case: &Case, state: &[Rational], without: &[&str]) -> Vec<Text> {
+    let names = (0..state.len()).map(|k| case.model.component_name(k));
+    let shown = names.zip(state).filter(|(name, _)| !without.contains(&name.as_str()));
+    let all: Vec<Text> =
+        shown.map(|(name, value)| equation(&name, &value.to_f64().0.to_string())).collect();
+    if all.len() > MOST_SHOWN { Vec::new() } else { all }
+}
+
 /// Parameters of a case that have fixed values, but those of some names.
 pub fn parameters(case: &Case, without: &[&str]) -> Vec<Text> {
     let one = |parameter: &liouville::mechanics::Parameter| match &parameter.origin {

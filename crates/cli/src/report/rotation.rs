@@ -183,8 +183,8 @@ impl RotationReport<'_> {
 
     /// Words below the picture.
     pub fn caption(&self) -> Text {
-        let words = [self.section(), format!("turns {}", self.around)];
-        let words = words.map(|words| plain(&facts::unbroken(&words.replace('-', "−"))));
+        let turns = plain(&facts::unbroken(&format!("turns {}", self.around).replace('-', "−")));
+        let words = [facts::section(self.surface), turns];
         facts::listed(words.into_iter().chain(facts::parameters(self.case, &[])))
     }
 }

@@ -4,6 +4,7 @@ pub(crate) mod attractors;
 pub(crate) mod basins;
 pub(crate) mod late;
 pub(crate) mod plane;
+pub(crate) mod reach;
 pub(crate) mod rotation;
 pub(crate) mod shadow;
 pub(crate) mod spectrum;

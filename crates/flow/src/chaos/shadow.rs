@@ -7,6 +7,7 @@
 //! Parameters that differ from motion to motion are constant components of the state, so that one
 //! program serves all.
 
+use crate::chaos::reach::Reach;
 use crate::error::FlowError;
 use crate::motion::lyapunov::{Exponents, Record};
 use crate::motion::recorded::{Loose, extended_program, filled};
@@ -28,12 +29,10 @@ use liouville::scalar::Scalar;
 const STATES: usize = 64;
 /// Lanes of a motion and its shadow.
 const COUPLE: usize = 2;
-/// Distance of a shadow, relative to the state; rounding is 10⁻¹⁰ of it.
+/// Distance of a shadow, relative to the size of each component; rounding is 10⁻¹⁰ of it.
 const DISTANCE: f64 = 1e-6;
 /// Factor of growth or decay of the distance at which the shadow is put back.
 const FAR: f64 = 30.0;
-/// Factor of growth of the state at which the shadow is put at the distance that belongs to it.
-const LARGER: f64 = 1e3;
 
 /// Start of a motion: its state, and the loose parameters by their positions in their ranges.
 pub(crate) struct ShadowStart {
@@ -95,18 +94,13 @@ impl Shadowed {
     }
 }
 
-/// Length of a vector.
-fn size(vector: &[DoubleDouble]) -> f64 {
-    vector.iter().map(|x| x.hi * x.hi).sum::<f64>().sqrt()
-}
-
 type Done = Vec<(usize, Result<Exponents, FlowError>)>;
 
 /// Motion with its shadow, in two lanes.
 struct Running {
     index: usize,
     record: Record,
-    distance: f64,
+    reach: Reach,
     volume: f64,
     /// Share of the motion that was told.
     told: ToldShare,
@@ -193,15 +187,16 @@ impl<'w> Worker<'w> {
         };
         let record = Record::short(self.time).on_level(self.equations.rank);
         let end = DoubleDouble::from_f64(record.end().unwrap_or(self.time));
-        let size = match size(state) {
+        let mut reach = Reach::new(state);
+        if reach.is_empty() {
             // A state that is exactly 0 has no size; where it goes has.
-            0.0 => self.size_after_a_step(state, loose),
-            size => size,
-        };
-        let distance = DISTANCE * size;
+            reach = Reach::new(&self.after_a_step(state, loose));
+        }
         let along = self.equations.level.along(state, loose, 0);
-        let beside =
-            state.iter().zip(&along).map(|(x, u)| *x + DoubleDouble::from_f64(distance * u));
+        let factor = DISTANCE / reach.distance(&along);
+        let apart: Vec<f64> = along.iter().map(|u| factor * u).collect();
+        reach.put(&apart);
+        let beside = state.iter().zip(&apart).map(|(x, d)| *x + DoubleDouble::from_f64(*d));
         let shadow: Vec<DoubleDouble> = beside.chain(loose.iter().copied()).collect();
         self.stepper.start(COUPLE * couple, &[state.as_slice(), loose].concat(), end);
         self.stepper.start(COUPLE * couple + 1, &shadow, end);
@@ -210,17 +205,18 @@ impl<'w> Worker<'w> {
             self.stepper.hasten(lane);
         }
         self.running[couple] =
-            Some(Running { index, record, distance, volume: 0.0, told: ToldShare::default() });
+            Some(Running { index, record, reach, volume: 0.0, told: ToldShare::default() });
     }
 
-    /// Size of a state after a step; 1 if it rests.
-    fn size_after_a_step(&self, state: &[DoubleDouble], loose: &[DoubleDouble]) -> f64 {
+    /// State after a step.
+    fn after_a_step(&self, state: &[DoubleDouble], loose: &[DoubleDouble]) -> Vec<DoubleDouble> {
         let mut stepper = Stepper::<f64>::new(&self.equations.program, Accuracy::ROUGH);
         stepper.start(0, &[state, loose].concat(), DoubleDouble::from_f64(self.time));
         stepper.expand();
         stepper.advance();
-        let size = size(&stepper.pairs(0)[..state.len()]);
-        if size > 0.0 && size.is_finite() { size } else { 1.0 }
+        let mut after = stepper.pairs(0);
+        after.truncate(state.len());
+        after
     }
 
     /// Notes the contribution of the present steps to ∫ div v, by Gauss's rule with two points.
@@ -261,26 +257,21 @@ impl<'w> Worker<'w> {
         let (own, other) = (COUPLE * couple, COUPLE * couple + 1);
         running.told.reach(self.stepper.time(own).hi / self.time, progress);
         let (state, shadow) = (self.stepper.pairs(own), self.stepper.pairs(other));
+        let dimension = self.equations.dimension;
         let apart: Vec<DoubleDouble> = shadow.iter().zip(&state).map(|(x, y)| *x - *y).collect();
-        let length = size(&apart);
-        let growth = length / running.distance;
         let is_done = self.stepper.is_done(own);
-        running.record.visit(&state[..self.equations.dimension]);
-        let wanted = DISTANCE * size(&state[..self.equations.dimension]);
-        let is_larger = wanted > LARGER * running.distance;
-        if is_done || is_larger || !(1.0 / FAR..=FAR).contains(&growth) {
-            running.record.grow(growth);
-            if is_larger && wanted.is_finite() {
-                running.distance = wanted;
-            }
-            let factor = match is_larger {
-                true => running.distance / length,
-                false => 1.0 / growth,
-            };
+        running.record.visit(&state[..dimension]);
+        running.reach.visit(&state[..dimension]);
+        let gaps: Vec<f64> = apart[..dimension].iter().map(|d| d.hi).collect();
+        let distance = running.reach.distance(&gaps);
+        if is_done || !(DISTANCE / FAR..=DISTANCE * FAR).contains(&distance) {
+            running.record.grow(running.reach.growth(&gaps));
+            let factor = DISTANCE / distance;
             let back =
                 |(x, d): (&DoubleDouble, &DoubleDouble)| *x + *d * DoubleDouble::from_f64(factor);
             let shadow: Vec<DoubleDouble> = state.iter().zip(&apart).map(back).collect();
             self.stepper.place(other, &shadow);
+            running.reach.put(&gaps.iter().map(|d| d * factor).collect::<Vec<f64>>());
         }
         if !is_done {
             return false;

@@ -13,6 +13,7 @@ use crate::motion::start::Start;
 use crate::taylor::batch::each;
 use crate::taylor::number::SeriesNumber;
 use crate::taylor::program::TaylorProgram;
+use crate::taylor::saturating::{Saturating, area};
 use crate::taylor::values::PlainValues;
 use crate::taylor::watch::Domain;
 use crate::told::ToldShare;
@@ -378,7 +379,9 @@ fn guards(
             if std::mem::replace(&mut seen[place], true) {
                 continue;
             }
-            if let Some((domain, argument)) = Domain::of(graph.step(place)) {
+            // The argument of the logarithm asinh u is positive, though rounding may make it 0.
+            let is_area = matches!(area(graph, place), Some((Saturating::Asinh, _)));
+            if let Some((domain, argument)) = Domain::of(graph.step(place)).filter(|_| !is_area) {
                 guards.push((domain, formula));
                 arguments.push(graph.at(argument));
             }

@@ -3,6 +3,7 @@
 //! The time after the first tenth is cut into blocks, whose spread gives the standard error. The
 //! error is reliable only where a block is longer than the slow drift between regions.
 
+use crate::motion::extent::Extent;
 use crate::motion::trend::GrowthTrend;
 use liouville::number::double_double::DoubleDouble;
 use serde::{Deserialize, Serialize};
@@ -17,14 +18,6 @@ pub(crate) const ERRORS: f64 = 3.0;
 const PARALLEL: f64 = 1e-8;
 /// Logarithm of the largest volume that a bounded motion gains or loses between its ends.
 pub(crate) const ENDS: f64 = 10.0;
-
-/// Number of blocks before the later half, that of the transient among them.
-const HALF: usize = 1 + BLOCKS / 2;
-/// Distance, relative to the largest state, within which a motion is at rest.
-const STILL: f64 = 1e-12;
-/// Growth of the largest state from the earlier to the later half beyond which a motion escapes; a
-/// turning angle grows by 2.
-const ESCAPED: f64 = 4.0;
 
 /// A mean with its standard error.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -162,78 +155,6 @@ impl Estimate {
     /// that a motion of finite length gains or loses at its ends.
     pub(crate) fn is_settled(&self, time: f64) -> bool {
         self.mean.abs() > ERRORS * self.error && self.mean.abs() * time.abs() >= ENDS
-    }
-}
-
-/// Places of a motion, block by block.
-#[derive(Debug, Default)]
-struct Extent {
-    /// Largest size of the state in each block.
-    sizes: Vec<f64>,
-    /// State at which the later half begins, and the largest distance from it since.
-    middle: Vec<f64>,
-    away: f64,
-    /// Last state, the box around the states of its block, and the diagonals of those before.
-    last: Vec<f64>,
-    bounds: Vec<[f64; 2]>,
-    spreads: Vec<f64>,
-}
-
-impl Extent {
-    /// Records a state in a block.
-    fn visit(&mut self, block: usize, state: &[DoubleDouble]) {
-        let norm = |parts: &mut dyn Iterator<Item = f64>| parts.map(|x| x * x).sum::<f64>().sqrt();
-        let size = norm(&mut state.iter().map(|x| x.hi));
-        if self.sizes.len() <= block {
-            self.sizes.resize(block + 1, 0.0);
-        }
-        self.sizes[block] = self.sizes[block].max(size);
-        self.enclose(block, state);
-        if block < HALF {
-            return;
-        }
-        if self.middle.is_empty() {
-            self.middle = state.iter().map(|x| x.hi).collect();
-        }
-        let gap = norm(&mut state.iter().zip(&self.middle).map(|(x, y)| x.hi - y));
-        self.away = self.away.max(gap);
-    }
-
-    /// Puts a state into the box of its block; a box begins with the last state of the one before.
-    fn enclose(&mut self, block: usize, state: &[DoubleDouble]) {
-        if self.bounds.is_empty() {
-            self.bounds = state.iter().map(|x| [x.hi, x.hi]).collect();
-        } else if block != self.spreads.len() {
-            self.spreads.push(self.diagonal());
-            self.bounds = self.last.iter().map(|x| [*x, *x]).collect();
-        }
-        for ([low, high], x) in self.bounds.iter_mut().zip(state) {
-            (*low, *high) = (low.min(x.hi), high.max(x.hi));
-        }
-        self.last.clear();
-        self.last.extend(state.iter().map(|x| x.hi));
-    }
-
-    fn diagonal(&self) -> f64 {
-        self.bounds.iter().map(|[low, high]| (high - low) * (high - low)).sum::<f64>().sqrt()
-    }
-
-    /// Diagonals of the boxes of all blocks.
-    fn spreads(&self) -> Vec<f64> {
-        self.spreads.iter().copied().chain([self.diagonal()]).collect()
-    }
-
-    /// Class of a motion with a positive exponent that comes to rest, or goes away for ever.
-    fn character(&self) -> Option<Character> {
-        let (early, late) = self.sizes.split_at(HALF.min(self.sizes.len()));
-        let largest = |sizes: &[f64]| sizes.iter().fold(0.0, |a: f64, b| a.max(*b));
-        let grows = late.windows(2).all(|pair| pair[0] < pair[1]);
-        match late {
-            [] | [_] => None,
-            _ if self.away <= STILL * largest(&self.sizes) => Some(Character::UnstableRest),
-            _ if grows && largest(late) > ESCAPED * largest(early) => Some(Character::Escape),
-            _ => None,
-        }
     }
 }
 

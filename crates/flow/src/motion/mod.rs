@@ -3,6 +3,7 @@
 pub(crate) mod carry;
 pub(crate) mod columns;
 pub(crate) mod conserved;
+pub(crate) mod extent;
 pub(crate) mod iterates;
 pub(crate) mod kept;
 pub(crate) mod lexicon;

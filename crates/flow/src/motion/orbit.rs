@@ -229,15 +229,24 @@ impl Watch {
         let mut rounded = Evaluator::new(&tape, Float::<1>);
         rounded.run(&start.state.iter().map(|x| [x.hi]).collect::<Vec<_>>());
         let blur: Vec<f64> = rounded.outputs().zip(&values).map(|(r, x)| r[0] - x.hi).collect();
+        let shares = shares(&tape, &start.state, &values);
         let (mut rest, mut blur) = (values.as_slice(), blur.as_slice());
+        let mut shares = shares.as_slice();
         let mut followed = Vec::new();
         for ((name, role, _), group) in sources.into_iter().zip(&groups) {
             let (own, others) = rest.split_at(group.len());
             let (own_blur, other_blur) = blur.split_at(group.len());
-            (rest, blur) = (others, other_blur);
+            let (own_shares, other_shares) = shares.split_at(group.len());
+            (rest, blur, shares) = (others, other_blur, other_shares);
             let size = norm(own.iter().map(|x| x.hi));
             let is_zero = size <= norm(own_blur.iter().copied());
-            let scale = if role == QuantityRole::Level || is_zero { 1.0 } else { size };
+            let terms = norm(own_shares.iter().copied());
+            let scale = match role == QuantityRole::Level || is_zero {
+                true => 1.0,
+                // Terms that cancel, as those of a pendulum that starts at a right angle.
+                false if size < SMALL * terms && terms.is_finite() => terms,
+                false => size,
+            };
             let value = own.to_vec();
             followed.push(Followed { name, role, value, drift: 0.0, drift_at_end: 0.0, scale });
         }
@@ -258,6 +267,21 @@ impl Watch {
             followed.drift = if drift.is_nan() { drift } else { followed.drift.max(drift) };
         }
     }
+}
+
+/// Sums of the shares |x ∂f/∂x| that the components of a state have in the values of a tape.
+fn shares(tape: &Tape, state: &[DoubleDouble], values: &[DoubleDouble]) -> Vec<f64> {
+    let mut evaluator = Evaluator::new(tape, DoubleDoubles);
+    let mut sums = vec![0.0; values.len()];
+    for k in 0..state.len() {
+        let mut moved = state.to_vec();
+        moved[k] = moved[k] + moved[k] * DoubleDouble::from_f64(NEXT);
+        evaluator.run(&moved);
+        for ((sum, x), value) in sums.iter_mut().zip(evaluator.outputs()).zip(values) {
+            *sum += ((*x - *value).hi / NEXT).abs();
+        }
+    }
+    sums
 }
 
 fn norm(parts: impl Iterator<Item = f64>) -> f64 {
@@ -283,8 +307,10 @@ fn values(tape: &Tape, state: &[DoubleDouble]) -> Vec<DoubleDouble> {
     evaluator.outputs().copied().collect()
 }
 
-/// Part of the size of its terms below which an energy counts as 0.
+/// Part of the size of its terms below which a value counts as 0.
 const SMALL: f64 = 1e-6;
+/// Relative step of a difference quotient in double-double.
+const NEXT: f64 = 1e-10;
 
 /// Change of the energy from a start to another state, relative to the energy, or to the size of its terms
 /// where it is 0 beside them; 0 for a system without energy.

@@ -38,21 +38,22 @@ pub fn by(
     match &found {
         Ok((found, ground)) => {
             weigh(claim, found, &mut judgement);
-            doubt(ground, (&claim.period, found.period), &mut judgement);
+            doubt(ground, &claim.period, (&found.start, found.period), &mut judgement);
         }
         Err(reason) => judgement.leave_open(reason.clone()),
     }
     Ok((judgement, found.ok().map(|(found, _)| found)))
 }
 
-/// Leaves a claim open that is wrong of the orbit found, unless that is proved to be the only one about
-/// the start with a period as stated: another may lie next to it.
+/// Leaves a claim open that is wrong of the orbit found, unless no other one with a period as stated is
+/// proved to begin as near to the start: it may lie next to that.
 pub(super) fn doubt(
     ground: &Ground<'_>,
-    (stated, period): (&Stated, Enclosure),
+    stated: &Stated,
+    (start, period): (&[Enclosure], Enclosure),
     judgement: &mut MotionJudgement,
 ) {
-    if judgement.is_refuted() && !ground.is_alone(stated.unit) {
+    if judgement.is_refuted() && !ground.is_alone(stated.unit, (start, period)) {
         judgement.withdraw(format!(
             "the closed orbit found from the start has period {:.10}, and is not proved to be the only \
              one there: start nearer to the one that is claimed",

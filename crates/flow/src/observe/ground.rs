@@ -141,10 +141,10 @@ impl<'g> Ground<'g> {
         Ok(found)
     }
 
-    /// Whether boxes that hold the start, and all periods within `unit` of that of the claim, hold one
-    /// closed orbit alone.
-    pub fn is_alone(&self, unit: f64) -> bool {
-        self.asked_of(|request| is_alone(request, unit)) == Ok(true)
+    /// Whether no other closed orbit than that found begins as near to the start and has a period within
+    /// `unit` of that of the claim.
+    pub fn is_alone(&self, unit: f64, found: (&[Enclosure], Enclosure)) -> bool {
+        self.asked_of(|request| is_alone(request, unit, found)) == Ok(true)
     }
 
     /// Checks that a box of states lies where the integrals are proved.

@@ -32,7 +32,7 @@ pub fn by(
     match &found {
         Ok((found, ground)) => {
             weigh(claim, found, &mut judgement);
-            doubt(ground, (&claim.period, found.times[0]), &mut judgement);
+            doubt(ground, &claim.period, (&found.start, found.times[0]), &mut judgement);
         }
         Err(reason) => judgement.leave_open(reason.clone()),
     }

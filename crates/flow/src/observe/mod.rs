@@ -21,6 +21,7 @@ mod periodic;
 mod reaches;
 mod scene;
 mod section;
+mod settling;
 
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};

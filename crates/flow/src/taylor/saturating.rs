@@ -151,7 +151,7 @@ pub(super) fn hyperbolic(graph: &Graph, place: usize) -> Option<(bool, [usize; 2
 }
 
 /// Argument of asinh u = ln(u + √(u² + 1)) or atanh u = ln((1 + u)/(1 − u))/2 in the logarithm at a place.
-pub(super) fn area(graph: &Graph, place: usize) -> Option<(Saturating, usize)> {
+pub(crate) fn area(graph: &Graph, place: usize) -> Option<(Saturating, usize)> {
     let Step::Unary(UnaryFunction::Ln, a) = graph.step(place) else { return None };
     let is_one =
         |place: usize| matches!(graph.step(place), Step::Constant(value) if value.is_one());

@@ -26,6 +26,11 @@ const NEARER: f64 = 0.9375;
 const MOST_HALVES: usize = 60;
 
 impl<T: SeriesNumber> Stepper<T> {
+    /// Takes this share of a motion's step.
+    pub fn shorten(&mut self, lane: usize, share: f64) {
+        self.lanes[lane].step = self.lanes[lane].step * T::One::float(share);
+    }
+
     /// Shortens steps at whose ends a root or a power would be negative: there the series goes on with
     /// another branch than the field.
     pub(crate) fn keep_branches(&mut self) {

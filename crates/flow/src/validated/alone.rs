@@ -1,27 +1,50 @@
-//! Boxes about a closed orbit that hold no other one: they are as wide as a claim about it is vague.
+//! Boxes about a closed orbit that hold no other one which begins as near to a start.
+//!
+//! ```text
+//! states nearer to the start than the orbit ─ to its phase ─▶ box of node 0 ─ steps ─▶ boxes of all nodes
+//! ```
+//!
+//! A closed orbit that begins in the first box, with a period in its box, goes through the others. If
+//! Krawczyk's operator maps all of them into their interior, there is one zero in them: the orbit found.
 
 use super::course::Course;
-use super::guess::Nodes;
-use super::{KAPPAS, MOST_UNKNOWNS, Obstacle, OrbitSearch, Request, prepared};
+use super::division::DIVISIONS;
+use super::enclosure::Enclosure;
+use super::forward::Cloud;
+use super::motion::Boxed;
+use super::shooting::{combined, times};
+use super::{LEAST_RADIUS, MOST_UNKNOWNS, Obstacle, OrbitSearch, Request, prepared};
 
-/// Sides of the boxes of states against those that hold the start, or what the motion covers in the
-/// doubt about the period: some have room for both.
-const WIDER: [f64; 5] = [1.5, 5.0, 30.0, 300.0, 3000.0];
+/// Factors by which boxes are made wider than those that hold all orbits from the first: some have
+/// room for Krawczyk's operator.
+const WIDER: [f64; 4] = [1.5, 5.0, 30.0, 300.0];
+/// Sides of further boxes, in what a motion covers in the doubt about the period.
+const WIDE: [f64; 5] = [0.15, 0.5, 3.0, 30.0, 300.0];
+/// Factors by which boxes that are foreseen to hold a tube are wider than its first one.
+const ROOMS: [f64; 5] = [4.0, 30.0, 300.0, 3e3, 3e4];
+/// Change of the velocity within the first box that is allowed for.
+const TURN: f64 = 1.1;
+/// Share of the first box within which an orbit begins that is the one in it.
+const NEXT: f64 = 0.25;
 /// Share of a period by which its sum over segments may be off.
 const ROUNDING: f64 = 1e-13;
 
-/// Whether boxes are proved to hold a single closed orbit that contain the start of a request, and all
-/// periods within `unit` of its period.
-///
-/// What is true of that orbit is then true of each that begins in the box of the start, goes through
-/// those of the nodes, and has such a period.
-pub fn is_alone(request: &Request<'_>, unit: f64) -> Result<bool, Obstacle> {
+/// Whether a closed orbit that was found, from its start and period, is proved to be the only one that
+/// begins as near to the start of a request and has a period within `unit` of that of the request.
+pub fn is_alone(
+    request: &Request<'_>,
+    unit: f64,
+    found: (&[Enclosure], Enclosure),
+) -> Result<bool, Obstacle> {
     let state = request.state();
     let (shooting, _) = prepared(request, &state)?;
     let most = MOST_UNKNOWNS / request.model.dimension().max(1);
-    for kappa in KAPPAS {
-        let nodes = Nodes::along(request.model, request.start, request.period, kappa, most)?;
-        let search = match OrbitSearch::new(&shooting, nodes.ok_or(Obstacle::TooLong)?) {
+    let Request { model, start, period, .. } = request;
+    for division in DIVISIONS {
+        let nodes = division.nodes(&shooting.motion, model, start, *period, most);
+        let search = match nodes
+            .and_then(|nodes| OrbitSearch::new(&shooting, nodes.ok_or(Obstacle::TooLong)?))
+        {
             Err(Obstacle::NoStep(_)) => continue,
             found => found?,
         };
@@ -30,18 +53,122 @@ pub fn is_alone(request: &Request<'_>, unit: f64) -> Result<bool, Obstacle> {
         let gaps = nodes.states[0].iter().zip(&state).map(|(x, y)| (x - y).abs());
         let gap = gaps.fold(0.0, f64::max);
         let late = (nodes.period - request.period).abs() + unit;
-        let late = late + ROUNDING * (nodes.period + request.period);
-        let speed = search.frames.phase.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let late = 1.01 * (late + ROUNDING * (nodes.period + request.period));
+        // With boxes of parameters each of them has its orbit.
+        let gap = gap + offsets[..state.len()].iter().copied().fold(0.0, f64::max);
+        let Some(first) = search.first_radius(gap) else { continue };
+        if !search.is_orbit(found, first, late) {
+            continue;
+        }
+        let Some(reach) = search.reach(first, late) else { continue };
         let course = Course { search: &search, offsets: &offsets, radii: &offsets };
-        let count = offsets.len();
-        let alone = WIDER.iter().any(|wider| {
-            let mut radii = vec![wider * gap.max(0.1 * speed * late); count];
-            radii[count - 1] = 1.01 * late;
-            gap < radii[0] && course.is_unique(&radii)
+        let speed = search.frames.phase.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let sides = WIDER.iter().map(|wider| wider * reach);
+        let sides = sides.chain(WIDE.iter().map(|share| share * speed * late));
+        let alone = sides.filter(|side| *side >= reach).any(|side| {
+            let mut radii = vec![side; offsets.len()];
+            radii[offsets.len() - 1] = late;
+            course.is_unique(&radii)
         });
         if alone {
             return Ok(true);
         }
     }
     Ok(false)
+}
+
+impl OrbitSearch<'_> {
+    /// Radius of a box about the first node that holds all motions that begin no farther from the start
+    /// than `gap`, the distance of this node, where they have its phase. `None` where the velocity is
+    /// not nearly the same all over the box.
+    fn first_radius(&self, gap: f64) -> Option<f64> {
+        // Such a state x has |x - x̂₀| ≤ 2 gap, and comes to the phase in a time of |(v̂, x - x̂₀)|/(v̂, v).
+        let radius = TURN * 2.0 * gap * (1.0 + TURN * self.slant());
+        self.is_even(radius).then_some(radius)
+    }
+
+    /// Distance along the motion that the phase hides, against that of a state from the first node.
+    fn slant(&self) -> f64 {
+        let phase = &self.frames.phase;
+        let norm = |power: i32| phase.iter().map(|x| x.abs().powi(power)).sum::<f64>();
+        let largest = phase.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
+        TURN * norm(1) * largest / norm(2)
+    }
+
+    /// Whether the velocity is nearly that at the first node in a box of this radius about it.
+    fn is_even(&self, radius: f64) -> bool {
+        let phase = &self.frames.phase;
+        let square = phase.iter().map(|x| x * x).sum::<f64>();
+        let largest = phase.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
+        let node: Boxed =
+            self.nodes.states[0].iter().map(|x| Enclosure::about(*x, radius)).collect();
+        let Some(field) = self.shooting.motion.field(&[node]).pop() else { return false };
+        let along = combined(phase, &field);
+        let is_fast = (along - Enclosure::exact(square / TURN)).is_positive();
+        is_fast && field.iter().all(|x| x.magnitude() <= TURN * largest)
+    }
+
+    /// Radius of boxes about all nodes through which all closed orbits go that begin in a box of this
+    /// radius about the first, with periods within `late` of that of the nodes.
+    ///
+    /// After the period of the nodes their motions are in the tube of the box. Where the velocity is
+    /// nearly constant they come back to the phase, and so to their beginning, in a time that crosses
+    /// the tube; at each node they are no later than that.
+    fn reach(&self, first: f64, late: f64) -> Option<f64> {
+        let phase = &self.frames.phase;
+        let largest = phase.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
+        let tube = self.tube(first)?;
+        if !self.is_even(tube + TURN * largest * late) {
+            return None;
+        }
+        let delay = self.slant() * (tube + first) / largest;
+        let states: Vec<Boxed> = (self.nodes.states.iter())
+            .map(|state| state.iter().map(|x| Enclosure::about(*x, tube)).collect())
+            .collect();
+        let fields = self.shooting.motion.field(&states);
+        let fastest = fields.iter().flatten().fold(0.0, |a: f64, x| a.max(x.magnitude()));
+        Some(tube + TURN * fastest * delay).filter(|reach| reach.is_finite())
+    }
+
+    /// Whether an orbit found before begins next to the first node and has a period that counts here.
+    fn is_orbit(&self, (start, period): (&[Enclosure], Enclosure), first: f64, late: f64) -> bool {
+        let near = |(x, node): (&Enclosure, &f64)| (x.mid - node).abs() <= NEXT * first + x.rad;
+        (period.mid - self.nodes.period).abs() <= late + period.rad
+            && start.iter().zip(&self.nodes.states[0]).all(near)
+    }
+
+    /// Largest radius of boxes about all nodes, and about the first one after the period, through which
+    /// all motions go that begin in a box of this radius about the first.
+    fn tube(&self, first: f64) -> Option<f64> {
+        let Self { shooting, nodes, .. } = self;
+        let motion = &shooting.motion;
+        let steps = times(nodes, Enclosure::exact(nodes.period));
+        let about = |side: f64| -> Vec<Boxed> {
+            let boxed =
+                |state: &Vec<f64>| state.iter().map(|x| Enclosure::about(*x, side)).collect();
+            nodes.states.iter().map(boxed).collect()
+        };
+        let middles: Option<Vec<_>> = motion.passages(&about(0.0), &steps).into_iter().collect();
+        let middles = middles?;
+        let size = nodes.states.iter().flatten().fold(0.0, |a: f64, x| a.max(x.abs()));
+        let least = first.max(LEAST_RADIUS * size);
+        // Passages from boxes that are foreseen to hold the tube, all at once.
+        ROOMS.iter().find_map(|room| {
+            let starts = about(room * least);
+            let passages: Option<Vec<_>> = motion.passages(&starts, &steps).into_iter().collect();
+            let (mut cloud, mut largest) = (Cloud::about(&about(first)[0]), first);
+            for (index, passage) in passages?.iter().enumerate() {
+                let hull = cloud.hull();
+                if !hull.iter().zip(&starts[index]).all(|(x, room)| x.is_within(*room)) {
+                    return None;
+                }
+                let target = &nodes.states[(index + 1) % nodes.states.len()];
+                let ends = middles[index].end.iter().zip(target);
+                let gap: Boxed = ends.map(|(x, y)| *x - Enclosure::exact(*y)).collect();
+                cloud = cloud.moved(passage, &gap, target)?;
+                largest = cloud.hull().iter().fold(largest, |a, x| a.max(x.rad));
+            }
+            Some(largest)
+        })
+    }
 }

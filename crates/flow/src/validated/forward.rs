@@ -10,12 +10,13 @@
 //! an orthogonal matrix.
 
 use super::coefficients::BOXES;
+use super::division::DIVISIONS;
 use super::enclosure::{Enclosure, raised};
 use super::functions::norm;
 use super::guess::Nodes;
 use super::laws::Laws;
 use super::motion::{Boxed, EnclosedMotion, EnclosedPassage};
-use super::{KAPPAS, LEAST_RADIUS, Obstacle};
+use super::{LEAST_RADIUS, Obstacle};
 use crate::motion::start::Start;
 use liouville::mechanics::Model;
 use liouville::number::double_double::DoubleDouble;
@@ -51,14 +52,16 @@ pub fn follow(
     let state = start.iter().map(|x| DoubleDouble::from_f64(x.mid)).collect();
     let begin = Start { parameters: parameters.to_vec(), state, moved: 0.0 };
     let mut obstacle = Obstacle::NoStep(0.0);
-    for kappa in KAPPAS {
-        let nodes = Nodes::along(model, &begin, time.mid, kappa, MOST_STEPS)?;
-        match along(&motion, &nodes.ok_or(Obstacle::TooManySteps)?, start, time) {
+    for division in DIVISIONS {
+        let nodes = division.nodes(&motion, model, &begin, time.mid, MOST_STEPS);
+        match nodes
+            .and_then(|nodes| along(&motion, &nodes.ok_or(Obstacle::TooManySteps)?, start, time))
+        {
             Err(problem @ Obstacle::NoStep(_)) => obstacle = problem,
             other => return other,
         }
     }
-    Err(obstacle)
+    Err(obstacle.of_field(&motion))
 }
 
 fn along(
@@ -146,7 +149,7 @@ fn is_inside(inner: &[Enclosure], outer: &[Enclosure]) -> bool {
 }
 
 /// The set of points p + Q w with |w| ≤ r, component by component.
-struct Cloud {
+pub(super) struct Cloud {
     centre: Vec<f64>,
     /// Q by columns.
     frame: Vec<Vec<f64>>,
@@ -154,7 +157,8 @@ struct Cloud {
 }
 
 impl Cloud {
-    fn about(state: &[Enclosure]) -> Self {
+    /// All points of a box.
+    pub(super) fn about(state: &[Enclosure]) -> Self {
         let n = state.len();
         let axis = |k: usize| (0..n).map(|j| if j == k { 1.0 } else { 0.0 }).collect();
         Self {
@@ -165,7 +169,7 @@ impl Cloud {
     }
 
     /// Box around all points.
-    fn hull(&self) -> Boxed {
+    pub(super) fn hull(&self) -> Boxed {
         let n = self.centre.len();
         let reach = |k: usize| {
             let parts = self.frame.iter().zip(&self.radii);
@@ -189,7 +193,12 @@ impl Cloud {
     }
 
     /// Set of points after a step, around a target. `None` if it is too large to be of use.
-    fn moved(&self, passage: &EnclosedPassage, gap: &[Enclosure], target: &[f64]) -> Option<Self> {
+    pub(super) fn moved(
+        &self,
+        passage: &EnclosedPassage,
+        gap: &[Enclosure],
+        target: &[f64],
+    ) -> Option<Self> {
         let product = |row: &Boxed, column: &[f64]| {
             let terms = row.iter().zip(column);
             terms.fold(Enclosure::ZERO, |sum, (x, y)| sum + *x * Enclosure::exact(*y))

@@ -7,6 +7,7 @@ use crate::taylor::stepper::{Accuracy, Stepper};
 use liouville::mechanics::Model;
 use liouville::number::double_double::DoubleDouble;
 
+use super::Obstacle;
 use super::motion::ORDER;
 
 /// Nodes of an orbit with the shares of its period between them.
@@ -15,6 +16,15 @@ pub struct Nodes {
     pub states: Vec<Vec<f64>>,
     pub shares: Vec<f64>,
     pub period: f64,
+}
+
+/// Result of dividing a motion.
+enum Divided {
+    Whole(Nodes),
+    /// It takes more steps than are allowed.
+    TooLong,
+    /// No step is allowed from this time on.
+    Ends(f64),
 }
 
 impl Nodes {
@@ -26,6 +36,39 @@ impl Nodes {
         kappa: f64,
         most: usize,
     ) -> Result<Option<Self>, FlowError> {
+        Self::followed(model, start, time, kappa, most, &|_, step| Some(step)).map(|found| {
+            match found {
+                Divided::Whole(nodes) => Some(nodes),
+                Divided::TooLong | Divided::Ends(_) => None,
+            }
+        })
+    }
+
+    /// The same, with steps no longer than `longest` returns for a state and a step; fails where it
+    /// returns none.
+    pub fn shortened(
+        model: &Model,
+        start: &Start,
+        time: f64,
+        kappa: f64,
+        most: usize,
+        longest: &dyn Fn(&[f64], f64) -> Option<f64>,
+    ) -> Result<Option<Self>, Obstacle> {
+        match Self::followed(model, start, time, kappa, most, longest)? {
+            Divided::Whole(nodes) => Ok(Some(nodes)),
+            Divided::TooLong => Ok(None),
+            Divided::Ends(time) => Err(Obstacle::NoStep(time)),
+        }
+    }
+
+    fn followed(
+        model: &Model,
+        start: &Start,
+        time: f64,
+        kappa: f64,
+        most: usize,
+        longest: &dyn Fn(&[f64], f64) -> Option<f64>,
+    ) -> Result<Divided, FlowError> {
         let program = guarded_program(model, &start.parameters)?;
         let mut stepper = Stepper::<f64>::new(&program, Accuracy { order: ORDER, kappa });
         let mut state = start.state.clone();
@@ -34,16 +77,23 @@ impl Nodes {
         let (mut states, mut shares) = (Vec::new(), Vec::new());
         while !stepper.is_done(0) {
             if states.len() == most {
-                return Ok(None);
+                return Ok(Divided::TooLong);
             }
             stepper.expand();
             stepper.check(0)?;
             let state = stepper.pairs(0).into_iter().take(start.state.len());
-            states.push(state.map(|x| x.hi).collect());
+            let state: Vec<f64> = state.map(|x| x.hi).collect();
+            let step = stepper.step(0);
+            match longest(&state, step) {
+                None => return Ok(Divided::Ends(stepper.time(0).hi)),
+                Some(shorter) if shorter < step => stepper.shorten(0, shorter / step),
+                Some(_) => {}
+            }
+            states.push(state);
             shares.push(stepper.step(0) / time);
             stepper.advance();
         }
-        Ok(Some(Self { states, shares, period: time }))
+        Ok(Divided::Whole(Self { states, shares, period: time }))
     }
 
     /// Adds a step to all unknowns.

@@ -11,6 +11,7 @@ mod alone;
 mod band;
 mod coefficients;
 mod course;
+mod division;
 mod enclosure;
 mod forward;
 mod functions;
@@ -42,6 +43,7 @@ pub use replay::{CoveringSet, HorseshoeData, ProofData, replay, replay_horseshoe
 pub use request::Request;
 
 use course::Course;
+use division::DIVISIONS;
 use functions::Functions;
 use guess::Nodes;
 use krawczyk::{Inverse, is_regular};
@@ -52,8 +54,6 @@ use shooting::{Frames, Shooting, boxes, times};
 
 /// Largest number of unknowns; the inverse has its square of entries.
 const MOST_UNKNOWNS: usize = 6000;
-/// Step size constants tried: shorter segments where longer ones are not proved.
-const KAPPAS: [f64; 3] = [3.0, 3.5, 4.2];
 /// Limit on the iterations of Newton's method, and the step after which it has converged.
 const MOST_ITERATIONS: usize = 12;
 const CONVERGED: f64 = 1e-8;
@@ -114,10 +114,11 @@ pub fn prove(request: &Request<'_>) -> Result<ProvedOrbit, Obstacle> {
     let state = request.state();
     let (shooting, numbers) = prepared(request, &state)?;
     let mut obstacle = Obstacle::NoOrbit;
-    for kappa in KAPPAS {
-        let most = MOST_UNKNOWNS / model.dimension().max(1);
-        let nodes = Nodes::along(model, start, request.period, kappa, most)?;
-        match OrbitSearch::new(&shooting, nodes.ok_or(Obstacle::TooLong)?)
+    let most = MOST_UNKNOWNS / model.dimension().max(1);
+    for division in DIVISIONS {
+        let nodes = division.nodes(&shooting.motion, model, start, request.period, most);
+        match nodes
+            .and_then(|nodes| OrbitSearch::new(&shooting, nodes.ok_or(Obstacle::TooLong)?))
             .and_then(|search| search.prove(request.wants_multipliers))
         {
             Ok(mut found) => {
@@ -129,10 +130,11 @@ pub fn prove(request: &Request<'_>) -> Result<ProvedOrbit, Obstacle> {
             }
             // Shorter segments have better chances.
             Err(problem @ Obstacle::NoStep(_)) => obstacle = problem,
+            Err(Obstacle::TooLong) if matches!(obstacle, Obstacle::NoStep(_)) => break,
             Err(problem) => return Err(problem),
         }
     }
-    Err(obstacle)
+    Err(obstacle.of_field(&shooting.motion))
 }
 
 /// Nodes near a closed orbit, with an approximate inverse of the derivative there.

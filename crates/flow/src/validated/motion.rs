@@ -3,11 +3,12 @@
 use super::coefficients::{BOXES, Block, Coefficients};
 use super::enclosure::Enclosure;
 use super::laws::Laws;
-use super::plan::Plan;
+use super::plan::{Plan, RowRule};
 use super::sharp;
 use super::tail::{self, End};
 use crate::error::FlowError;
 use crate::motion::presence::as_written;
+use crate::taylor::form::Row;
 use crate::taylor::program::TaylorProgram;
 use liouville::graph::{Expr, record};
 use liouville::mechanics::Phase;
@@ -19,6 +20,11 @@ use num_dual::Dual;
 
 /// Order of the series, where it is not chosen.
 pub const ORDER: usize = 20;
+
+/// Limit on the halves of a step, and ratio of the radius of its norm to it: above the least one by a
+/// shrink, for boxes.
+const MOST_HALVES: usize = 2 * BOXES;
+const ROOM: f64 = 1.8;
 
 /// Box of states, an enclosure for each component.
 pub type Boxed = Vec<Enclosure>;
@@ -163,6 +169,36 @@ impl EnclosedMotion {
             EnclosedPassage { end, derivative, volume: columns[count], radius }
         };
         steps(&self.full, self.order, &starts, h).into_iter().map(|end| end.map(passage)).collect()
+    }
+
+    /// Longest step from a state, up to the one given, that is proved with room for a box about it.
+    pub fn longest(&self, state: &[f64], step: f64) -> Option<f64> {
+        let start = self.whole(state.iter().map(|x| Enclosure::exact(*x)).collect());
+        let starts = vec![start; BOXES];
+        // Radii do not depend on steps, but are sought near them.
+        (0..MOST_HALVES).step_by(BOXES).find_map(|first| {
+            let half = |k: usize| Enclosure::exact(step * 0.5f64.powi((first + k) as i32));
+            let tried: Vec<Enclosure> = (0..BOXES).map(half).collect();
+            let ends = steps(&self.full, self.order, &starts, &tried);
+            let radius = ends.into_iter().flatten().map(|end| end.radius).reduce(f64::max)?;
+            Some(step.min(radius / ROOM))
+        })
+    }
+
+    /// Whether the field is a polynomial in the state and in exponentials, sines and cosines: it has
+    /// neither poles nor branches.
+    pub fn is_entire(&self) -> bool {
+        let is_entire = |(_, rule): &(Row, RowRule)| {
+            matches!(
+                rule,
+                RowRule::Sum(_)
+                    | RowRule::Theta(_)
+                    | RowRule::Exp(_)
+                    | RowRule::Sin { .. }
+                    | RowRule::Cos { .. }
+            )
+        };
+        self.wide.operations.iter().all(is_entire)
     }
 
     /// State with the loose parameters and zeros, as the wide plan begins.

@@ -1,5 +1,6 @@
 //! Reasons why nothing is proved about a motion.
 
+use super::motion::EnclosedMotion;
 use super::{MOST_UNKNOWNS, forward};
 use crate::error::FlowError;
 
@@ -37,6 +38,12 @@ pub enum Obstacle {
          or a branch"
     )]
     NoStep(f64),
+    /// A step of an entire field is not proved.
+    #[error(
+        "no step of the series is proved near t = {0:.3}: the terms of the field are large there and \
+         cancel; write it in coordinates in which the motion is near 0, or with brackets, as (x - 3)^2"
+    )]
+    Cancels(f64),
     /// The boxes are not mapped into themselves.
     #[error(
         "the boxes are not contracted (norm {0:.1e}): the orbit is degenerate or nearly so, or one of a \
@@ -81,4 +88,14 @@ pub enum Obstacle {
     /// The covering relations are not proved.
     #[error("the covering relations along a homoclinic orbit are not proved: {0}")]
     NoCovering(&'static str),
+}
+
+impl Obstacle {
+    /// The same for a field, which has no poles and no branches if it is entire.
+    pub(super) fn of_field(self, motion: &EnclosedMotion) -> Self {
+        match self {
+            Self::NoStep(time) if motion.is_entire() => Self::Cancels(time),
+            other => other,
+        }
+    }
 }

@@ -3,10 +3,12 @@
 
 mod alone;
 mod boxes;
+mod catalogue;
 mod horseshoes;
 mod kept;
 mod least;
 mod nearby;
+mod shifted;
 
 use std::path::Path;
 use std::sync::OnceLock;

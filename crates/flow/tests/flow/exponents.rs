@@ -3,7 +3,7 @@
 use liouville::case::Case;
 use liouville::verdict::{ClaimReport, Options, Verdict, read_state};
 use liouville_flow::observe::observe;
-use liouville_flow::{Character, MapExponents, Start, map_exponents};
+use liouville_flow::{Character, MapExponents, Precision, Start, iterates, map_exponents};
 
 /// Report on a claim about the motion of a plane field from a start.
 fn judged(field: [&str; 2], start: [&str; 2], claim: &str) -> ClaimReport {
@@ -168,4 +168,18 @@ fn a_map_that_takes_several_states_to_one_has_chaos_alone() {
     let found = of_map(["4*x*(1 - x)", "9/10*y"], ["0.3217", "0.1234"], 20_000);
     assert_eq!(found.largest.character, Character::Chaos, "{found:?}");
     assert!((found.largest.divergence.mean - 1.8f64.ln()).abs() < 1e-2, "{found:?}");
+}
+
+#[test]
+fn areas_of_large_negative_numbers_have_values_in_maps() {
+    for x in ["-9e7", "-1e10", "-1e7", "1e10"] {
+        let text = "title = \"map\"\n[state]\nx = \"-2..2\"\n[map]\nx = \"asinh(x)\"\n";
+        let case = Case::parse(text, &[]).expect("a case");
+        let state = read_state(&case, &format!("x={x}")).expect("a state");
+        let start = Start::new(&case, Some(&state), 1, 0);
+        let mut found = iterates(&case, &[start], (1, Precision::Float), None, 1, &|_| ());
+        let end = found.pop().expect("an orbit").orbit.expect("a value").end[0].hi;
+        let known = x.parse::<f64>().expect("a number").asinh();
+        assert!((end - known).abs() < 1e-14 * known.abs(), "{x}: {end} and {known}");
+    }
 }

@@ -59,6 +59,18 @@ fn distance(a: &[DoubleDouble], b: &[DoubleDouble]) -> f64 {
     a.iter().zip(b).map(|(x, y)| (*x - *y).hi.powi(2)).sum::<f64>().sqrt()
 }
 
+#[test]
+fn drifts_are_relative_to_terms_that_cancel_at_the_start() {
+    let case = parse(
+        "title = 'double pendulum'\n[state]\na = '-1..1'\nb = '-1..1'\n\"a'\" = '-1..1'\n\
+         \"b'\" = '-1..1'\n[lagrangian]\nkinetic = \"a'^2 + b'^2/2 + a'*b'*cos(a - b)\"\n\
+         potential = '-2*cos(a) - cos(b)'\n",
+    );
+    let found = follow(&case, "a=pi/2 b=pi/2 a'=0 b'=0", 20.0, Precision::Float);
+    let energy = found.followed.iter().find(|own| own.name == "energy").expect("an energy");
+    assert!(energy.drift > 0.0 && energy.drift < 1e-13, "{}", energy.drift);
+}
+
 const BALL_START: &str = "ω=[0.5,0.7,-0.5] γ=[1/3,2/3,2/3]";
 
 #[test]

@@ -88,6 +88,34 @@ fn rounding_refutes_no_limit_of_a_high_order() {
 }
 
 #[test]
+fn limits_of_motions_are_judged_by_what_has_settled() {
+    // x(1) - x(1) at ε = 0 is g(ε)(1 - 1/e)
+    let verdict = |g: &str, constant: &str| {
+        let text = format!(
+            "title = 'linear'\n[parameters]\nep = '1/2..1'\n[state]\nx = '-3..3'\n[field]\n\
+             \"x'\" = '-x + {g}'\n[[claim]]\nlimit-of-motion = 'x'\nparameter = 'ep'\n{constant}\
+             state = {{ x = '1' }}\ntime = 1\n"
+        );
+        reports(Case::parse(&text, &[]).expect("a case"), |_| true).remove(0).verdict
+    };
+    let (confirmed, refuted, open) = (Verdict::Confirmed, Verdict::Refuted, Verdict::Undecided);
+    let known = "constant = '0.632121'\n";
+    for (g, constant, expected) in [
+        ("ep*(1 + 1000000*ep)", known, confirmed),
+        ("ep/(1 + 1e10*ep)", known, confirmed),
+        ("tanh(1e6*ep)", "constant = '632120.6'\n", confirmed),
+        ("ep*(1 + ep)", "constant = '0.65'\n", refuted),
+        ("sqrt(ep^2 + 1e-10) - 1e-5", "", refuted),
+        ("ep^2", "", refuted),
+        ("sqrt(ep)", "", refuted),
+        ("ep*(1 + 1/10*sin(2*pi*log(ep)/log(10)))", "", open),
+        ("ep*log(ep)", "", open),
+    ] {
+        assert_eq!(verdict(g, constant), expected, "{g}");
+    }
+}
+
+#[test]
 fn a_closed_orbit_speaks_against_a_density_where_there_is_none() {
     let options = Options::default();
     let found = evidence_against_density(&catalogue("figures/fig-8.toml"), &options);

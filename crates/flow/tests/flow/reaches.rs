@@ -222,3 +222,15 @@ fn bounds_without_a_value_are_not_compared() {
     }
     assert_eq!(bounded("above = \"0*sqrt(x + 5)\"").verdict, Verdict::Proved, "it has a value");
 }
+
+#[test]
+fn a_field_whose_terms_cancel_is_enclosed_by_shorter_steps() {
+    // The circle about (3, 0), multiplied out: x = 3 + cos t.
+    let field = "[state]\nx = \"1..5\"\ny = \"-2..2\"\n[field]\n\
+                 \"x'\" = \"-x^3 + 9*x^2 - x*y^2 - 26*x + 3*y^2 - y + 24\"\n\
+                 \"y'\" = \"-x^2*y + 6*x*y + x - y^3 - 8*y - 3\"";
+    let rest = "reaches = \"x\"\nabove = 3.5403023\nbelow = 3.5403024\n\
+                state = { x = \"4\", y = \"0\" }\ntime = 1";
+    let found = claim(field, rest);
+    assert_eq!(found.verdict, Verdict::Proved, "{:?}", found.evidence.reason);
+}

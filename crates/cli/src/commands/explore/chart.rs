@@ -242,6 +242,9 @@ fn caption(case: &Case, request: &PlaneRequest, names: [&str; 2]) -> Text {
             );
         }
     }
+    if let Launch::State(Some(state)) = &request.launch {
+        found.extend(facts::start(case, state, &names));
+    }
     found.extend(facts::parameters(case, &names));
     facts::listed(found)
 }

@@ -19,7 +19,7 @@ const FRAME: f64 = 0.8;
 #[derive(Clone, Debug, Args)]
 pub struct Ink {
     /// Write to this file: a picture to .svg, .pdf or .png; data to .csv or .json, of `orbit` and
-    /// `section` also to .npy. With --part the folder of the parts
+    /// `section` also to .npy, and of `chart --part` the folder of the parts
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
     /// Width of the picture in millimetres; 120 by default, 180 for several plots

@@ -7,7 +7,6 @@ use crate::report::surface::{SurfaceReport, plot};
 use liouville::case::{Case, Direction};
 use liouville::number::double_double::DoubleDouble;
 use liouville::part::Part;
-use liouville_draw::{math, plain};
 use liouville_flow::{
     Begin, Columns, CrossingSurface, Fixed, FlowError, Launches, Launchpad, Lexicon, Precision,
     SurfaceOrbit, SurfaceRequest,
@@ -91,7 +90,7 @@ pub fn drawn(
     let fixed = options.crossing.plane.fixed(case)?;
     let fixed =
         fixed.iter().map(|own| facts::equation(own.function.name(), &own.value.to_string()));
-    let section = plain("section ").then(math(request.surface.text()));
+    let section = facts::section(Some(request.surface.text()));
     Ok(Drawn {
         title: case.title.clone(),
         facts: facts::listed(

@@ -29,3 +29,20 @@ fn a_neighbour_of_the_claimed_orbit_refutes_nothing() {
     let far = judged(circle).evidence.reason.unwrap_or_default();
     assert!(far.contains("period 6.2831853072, which is not within 1 % of 7"), "{far}");
 }
+
+#[test]
+fn an_orbit_that_begins_nearer_to_the_start_refutes_nothing_about_another() {
+    // Over the unit circle, A at z = 0, and B at z = g/10⁴ with the period 2π/(1 − 10⁻⁶).
+    let claim = |z: &str| {
+        judged(&format!(
+            "title = 'two cycles'\n[state]\nx = '-2..2'\ny = '-2..2'\nz = '-2..2'\n[let]\n\
+             g = '1 - 0.7/(1 + 100*(1 - x))'\ngx = '-70/(1 + 100*(1 - x))^2'\ns = 'z/g'\n\
+             w = '1 - s/100'\nxd = '-y*w + x*(1 - x^2 - y^2)'\n[field]\n\"x'\" = 'xd'\n\
+             \"y'\" = 'x*w + y*(1 - x^2 - y^2)'\n\"z'\" = '5000*s*(s - 0.0001)*g + s*gx*xd'\n\
+             [[claim]]\nclosed-orbit = 6.28319159\nstate = {{ x = '1', z = '{z}' }}\n"
+        ))
+    };
+    let between = claim("0.0000165");
+    assert_eq!(between.verdict, Verdict::Undecided, "{:?}", between.evidence);
+    assert_eq!(claim("0.00003").verdict, Verdict::Proved, "B itself");
+}

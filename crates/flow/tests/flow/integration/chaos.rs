@@ -234,3 +234,46 @@ fn a_source_that_turns_escapes_and_its_focus_is_an_unstable_rest() {
         assert_eq!(found.character, expected, "{begin}: {found:?}");
     }
 }
+
+#[test]
+fn a_large_component_hides_no_chaos() {
+    // Lorenz' equations with a constant of any size, and with a clock in short units of time.
+    let lorenz = |k: &str, rate: &str, s: &str, time: f64| {
+        let case = parse(&format!(
+            "title = 'a'\n[parameters]\nr = '20..30'\nb = '2..3'\n[state]\nx = '-2..2'\ny = '-2..2'\n\
+             z = '20..24'\ns = '0..1'\n[field]\n\"x'\" = '{k}*10*(y - x)'\n\
+             \"y'\" = '{k}*(r*x - y - x*z)'\n\"z'\" = '{k}*(x*y - b*z)'\n\"s'\" = '{rate}'\n"
+        ));
+        let axes = [(0, 26.0, 30.0), (1, 2.6, 2.7)].map(|(index, from, to)| {
+            axis(Coordinate::Parameter { index, component: 0 }, from, to, 2)
+        });
+        let state = read_state(&case, &format!("x=1 y=1 z=20 s={s}")).expect("a state");
+        let launch = Launch::State(Some(state));
+        let request = PlaneRequest { axes, launch, time, seed: 1 };
+        plane(&case, &request, 2, &|_| ()).expect("a plane")
+    };
+    for (k, rate, s, time) in [("1", "0", "1e8", 200.0), ("1/1000000", "1", "0", 2e8)] {
+        for found in lorenz(k, rate, s, time) {
+            let found = found.expect("a motion");
+            assert_eq!(found.character, Character::StrangeAttractor, "{found:?}");
+            let largest = found.largest.mean * time / 200.0;
+            assert!((largest - 0.85).abs() < 0.2, "{largest}");
+        }
+    }
+}
+
+#[test]
+fn a_far_start_is_forgotten_by_a_chart() {
+    let case = parse(
+        "title = 'a'\n[parameters]\nr = '20..30'\nb = '2..3'\n[state]\nx = '-2..2'\ny = '-2..2'\n\
+         z = '20..24'\n[field]\n\"x'\" = '10*(y - x)'\n\"y'\" = 'r*x - y - x*z'\n\
+         \"z'\" = 'x*y - b*z'\n",
+    );
+    let axes = [(0, 26.0, 30.0), (1, 2.6, 2.7)]
+        .map(|(index, from, to)| axis(Coordinate::Parameter { index, component: 0 }, from, to, 1));
+    let state = read_state(&case, "x=1e7 y=1 z=20").expect("a state");
+    let request = PlaneRequest { axes, launch: Launch::State(Some(state)), time: 200.0, seed: 1 };
+    let found = plane(&case, &request, 1, &|_| ()).expect("a plane");
+    let found = found[0].as_ref().expect("a motion");
+    assert_eq!(found.character, Character::StrangeAttractor, "{found:?}");
+}
