@@ -97,14 +97,21 @@ impl Judging<'_> {
     }
 
     /// Returns the values that must vanish for states to be on the level and to stay there.
-    pub(super) fn level_values(
-        &self,
-        place: &LevelSubset,
-        sampler: &Sampler,
-    ) -> Result<Vec<Expr>, Fault> {
+    fn level_values(&self, place: &LevelSubset, sampler: &Sampler) -> Result<Vec<Expr>, Fault> {
         let (level, rates) = self.common.level_at(&place.kept);
         let rates = if self.is_at_rest(sampler)? { Vec::new() } else { rates };
         Ok([level, rates].concat())
+    }
+
+    /// Returns the question whether these values vanish, and exist where states count.
+    pub(super) fn level_query(
+        &self,
+        place: &LevelSubset,
+        sampler: &Sampler,
+    ) -> Result<Query, Fault> {
+        let kept = self.common.level_presence.iter().zip(&place.kept).filter(|(_, kept)| **kept);
+        let presence = kept.flat_map(|(own, _)| own.iter().copied()).collect();
+        Ok(Query { outputs: self.level_values(place, sampler)?, presence, ..Query::default() })
     }
 
     /// Whether the states are a part of lower dimension on which the field folds to 0, as at the vertex of a

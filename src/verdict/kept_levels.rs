@@ -36,7 +36,7 @@ impl Judging<'_> {
         if sampler.is_numerical() {
             return self.is_kept_by_combination(&place.kept);
         }
-        let query = Query::of(self.level_values(place, sampler)?);
+        let query = self.level_query(place, sampler)?;
         let answers = PrimeFieldStates::new(self, sampler).test(&[query])?;
         Ok(matches!(answers.first(), Some(Answer::Zero(_))))
     }

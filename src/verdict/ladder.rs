@@ -179,12 +179,12 @@ impl Judging<'_> {
     ) -> Result<(), JudgeError> {
         let mut unsettled: Vec<_> =
             open.iter_mut().filter(|(_, status)| status.settled.is_none()).collect();
-        let ground = self.level_values(place, sampler)?;
-        if unsettled.is_empty() && ground.is_empty() {
+        let ground = self.level_query(place, sampler)?;
+        let has_ground = !ground.outputs.is_empty();
+        if unsettled.is_empty() && !has_ground {
             return Ok(());
         }
-        let has_ground = !ground.is_empty();
-        let mut queries = vec![Query::of(ground)];
+        let mut queries = vec![ground];
         queries.extend(unsettled.iter().map(|(item, _)| Query {
             outputs: [&item.residual[..], &item.context.quadrature_defects].concat(),
             requirement: item.requirement.clone(),

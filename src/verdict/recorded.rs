@@ -14,7 +14,7 @@ use crate::formula::Formula;
 use crate::graph::{Expr, literally};
 use crate::mechanics::calculus::DualPoint;
 use crate::mechanics::elimination::rejection;
-use crate::mechanics::{LevelEquation, LevelFunction, Phase, System};
+use crate::mechanics::{LevelEquation, LevelFunction, System};
 use crate::number::Enclosing;
 
 /// A claim with all expressions recorded for it.
@@ -99,6 +99,8 @@ pub struct SharedTerms {
     pub level: Vec<Expr>,
     /// Their rates along the motion, or their values at the image of a map.
     pub level_rates: Vec<Expr>,
+    /// Values of each level equation as written at the image under a map: where it has none the image is off the level.
+    pub level_presence: Vec<Vec<Expr>>,
     pub physics: Vec<Expr>,
     /// P + Pᵀ for the bracket of Hamilton's equations, zero where it is skew.
     pub symmetric: Vec<Expr>,
@@ -116,16 +118,8 @@ impl SharedTerms {
     pub fn of(jet: &DualPoint<'_, Expr>) -> Self {
         let phase = &jet.phase;
         let image = phase.model().system.is_map().then(|| jet.image());
-        // Where an equation as written has no value at the image, the map leaves the level.
-        let mapped = |image: &Phase<'_, Expr>, index: usize| {
-            let value = image.level_function(&phase.model().level[index].function);
-            let kept: Vec<bool> = (0..phase.model().level.len()).map(|own| own == index).collect();
-            let written = level_at(image, &kept).into_iter();
-            let written = written.filter(|value| !value.is_always_defined());
-            written.fold(value, |sum, own| literally(|| sum + own * Expr::zero()))
-        };
         let rate = |index: usize| match &image {
-            Some(image) => mapped(image, index),
+            Some(image) => image.level_function(&phase.model().level[index].function),
             None => {
                 jet.lie_derivative(|at| at.level_function(&phase.model().level[index].function))
             }
@@ -148,6 +142,15 @@ impl SharedTerms {
             },
             level: phase.model().level.iter().map(|e| phase.level_function(&e.function)).collect(),
             level_rates: (0..phase.model().level.len()).map(rate).collect(),
+            level_presence: {
+                let of = |index: usize| {
+                    let kept: Vec<bool> =
+                        (0..phase.model().level.len()).map(|own| own == index).collect();
+                    let written = image.iter().flat_map(|image| level_at(image, &kept));
+                    written.filter(|value| !value.is_always_defined()).collect()
+                };
+                (0..phase.model().level.len()).map(of).collect()
+            },
             physics: physics::outputs(phase),
             symmetric: match &phase.model().system {
                 System::Hamiltonian(hamiltonian) => hamiltonian.symmetric_part(phase),

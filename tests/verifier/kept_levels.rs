@@ -57,3 +57,49 @@ fn slopes_are_asked_on_parts_of_which_no_state_is_found() {
     };
     assert_eq!(verdict("(exp(u) - 1)", "1"), Verdict::Undecided);
 }
+
+fn verdicts(text: &str) -> Vec<Verdict> {
+    let case = Case::parse(text, &[]).unwrap_or_else(|error| panic!("{error}\n{text}"));
+    let found = judge(&case, &Options::default()).unwrap_or_else(|error| panic!("{error}\n{text}"));
+    found.claims.into_iter().map(|claim| claim.verdict).collect()
+}
+
+#[test]
+fn what_is_mapped_to_where_the_level_has_no_value_is_not_on_it() {
+    let state =
+        "title = 'x'\n[parameters]\na = '-1..1'\n[state]\nx = '-3..3'\ny = '-1..1'\nz = '-1..1'\n";
+    let level = |root: &str| format!("[level]\nequations = ['y*exp(√({root})) = 0']\n");
+    let point = "[[claim]]\nfixed-point = { x = '-2 - a', y = '0' }\n";
+    let rests = format!("{state}[field]\nx = 'y'\ny = '0'\nz = '0'\n{}{point}", level("x + 2"));
+    assert_eq!(verdicts(&rests), [Verdict::Undecided], "for a > 0 the point is not on the level");
+    let wide = format!("{state}[field]\nx = 'y'\ny = '0'\nz = '0'\n{}{point}", level("x + 4"));
+    assert_eq!(verdicts(&wide), [Verdict::Proved]);
+    let claims =
+        "[[claim]]\nsymmetry = { x = '-x' }\n[[claim]]\nreversor = { x = '-x', z = '-z' }\n";
+    let turned = format!("{state}[field]\nx = '0'\ny = '0'\nz = '1'\n{}{claims}", level("x + 2"));
+    assert_eq!(verdicts(&turned), [Verdict::Undecided; 2], "5/2 goes to −5/2");
+    let wide = format!("{state}[field]\nx = '0'\ny = '0'\nz = '1'\n{}{claims}", level("x + 4"));
+    assert_eq!(verdicts(&wide), [Verdict::Proved; 2]);
+    let map = |root: &str| {
+        format!(
+            "{state}[map]\nx = '-x'\ny = 'y'\nz = 'z + y'\n{}[[claim]]\nintegral = 'z'\n",
+            level(root)
+        )
+    };
+    assert_eq!(verdicts(&map("x + 2")), [Verdict::Undecided]);
+    assert_eq!(verdicts(&map("x + 4")), [Verdict::Proved]);
+}
+
+#[test]
+fn slopes_are_asked_on_parts_of_which_no_state_is_drawn() {
+    // On u = 0 the slope is 0, and the motion leaves that part.
+    for size in ["1", "10^4", "10^12"] {
+        let text = format!(
+            "title = 'x'\n[state]\nx = '-1..1'\ny = '-1..1'\nz = '-1..1'\nv = '-1..1'\nw = '-1..1'\n\
+             [field]\nx = '1'\ny = '0'\nz = '0'\nv = '0'\nw = 'y*u'\n[let]\n\
+             u = 'x - {size}*(z*exp(v) + v*exp(2*z) - z^3*v + sin(z - v^2) - 1/3)'\n\
+             [level]\nequations = ['y*u*(exp(u) - 1) = 0']\n[[claim]]\nintegral = 'w'\n"
+        );
+        assert_eq!(verdicts(&text), [Verdict::Undecided], "{size}");
+    }
+}

@@ -296,3 +296,62 @@ fn coordinates_without_mass_are_moved_by_many_constraints() {
     let verdicts: Vec<Verdict> = found.into_iter().map(|own| own.verdict).collect();
     assert_eq!(verdicts, [Proved, Proved, Proved, Refuted]);
 }
+
+#[test]
+fn listed_masses_that_are_0_are_moved_by_constraints() {
+    use Verdict::{Proved, Refuted};
+    let text = |claims: &str| {
+        format!(
+            "title = 'x'\nsystem = 'nonholonomic'\n[parameters]\nk = 'one of 1, 2, 0'\nm = 'one of 1, 3'\n\
+             [state]\nx = '-1..1'\ny = '-1..1'\n\"x'\" = '-1..1'\n\"y'\" = '-1..1'\n[lagrangian]\n\
+             kinetic = \"(k*x'^2 + m*y'^2)/2\"\npotential = 'x + y'\nconstraints = [\"x' + y' = 0\"]\n{claims}"
+        )
+    };
+    let claims = "[[claim]]\nrate = \"x'\"\nequals = '0*k + (k - 1)*(k - 2)'\n\
+                  [[claim]]\nrate = \"x'\"\nequals = '0'\n";
+    let case = Case::parse(&text(claims), &[]).expect("a case");
+    let found = judge(&case, &Options::default()).expect("equations of motion").claims;
+    let verdicts: Vec<Verdict> = found.iter().map(|own| own.verdict).collect();
+    assert_eq!(verdicts, [Refuted, Proved], "x'' = 0 also for k = 0");
+}
+
+#[test]
+fn nothing_is_proved_where_the_determinant_is_0_though_not_by_its_form() {
+    use Verdict::Undecided;
+    let names = ["x", "z", "x'", "z'"];
+    // D = −e(2 + e) l² k², and x'' → (k − 1)/(2lk).
+    let own =
+        "kinetic = \"(l*x'^2 + 2*l*k*(1 + e1)*x'*z' + l*k^2*z'^2)/2\"\npotential = 'e1*(x + z)'";
+    let claims = [
+        "limit = \"x''\"\nequals = '0'\nparameter = 'e1'",
+        "limit = \"x''\"\nequals = '(k - 1)/(2*l*k)'\nparameter = 'e1'",
+    ];
+    let parameters = "l = '1/2..1'\nk = '5/4..2'\ne1 = '-1/4..1/4'";
+    let found = verdicts(parameters, &names, own, &claims).expect("equations of motion");
+    assert!(found[0] != Verdict::Proved && found[1] != Verdict::Refuted, "{found:?}");
+    // No state with e = 0 counts.
+    let listed = "l = '1/2..1'\nk = '5/4..2'\ne1 = 'one of 0, 1/4'";
+    let found = verdicts(listed, &names, own, &["identity = 'e1 = 1/4'"]).expect("a report");
+    assert!(found[0] != Verdict::Refuted, "{found:?}");
+    // A pendulum on a cart without mass: D = l² sin² f.
+    let own = "kinetic = \"((x' + l*cos(f)*f')^2 + (l*sin(f)*f')^2)/2\"\npotential = '-cos(f)'";
+    let rests: Vec<String> = ["0", "π", "2*asin(1)", "4*atan(1)", "-π", "acos(-1)"]
+        .iter()
+        .map(|angle| format!("fixed-point = {{ f = '{angle}' }}"))
+        .collect();
+    let rests: Vec<&str> = rests.iter().map(String::as_str).collect();
+    let found = verdicts("l = '1/2..1'", &["x", "f", "x'", "f'"], own, &rests);
+    assert_eq!(found, Some(vec![Undecided; 6]));
+}
+
+#[test]
+fn a_number_as_exponent_has_slopes_at_0() {
+    use Verdict::{Proved, Refuted};
+    let own = "kinetic = \"q'^2/2\"\npotential = 'q^n'";
+    let claims = ["fixed-point = {}", "fixed-point = { q = '1' }", "integral = 'energy'"];
+    let found = verdicts("n = 4", &["q", "q'"], own, &claims);
+    assert_eq!(found, Some(vec![Proved, Refuted, Proved]));
+    // |q|^1 has no slope.
+    let found = verdicts("n = 1", &["q", "q'"], &own.replace("q^n", "abs(q)^n"), &claims[..1]);
+    assert!(found.is_none_or(|own| own[0] != Proved));
+}
