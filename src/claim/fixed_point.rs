@@ -343,6 +343,6 @@ mod tests {
         let polynomial = "λ^3 + 13.6667*λ^2 + 101.333*λ + 1440";
         assert!(of_spectrum.contains("is a fixed point to 30 digits"), "{of_spectrum}");
         assert!(of_spectrum.ends_with(polynomial), "{of_spectrum}");
-        assert!(lorenz("8.48", rounded).contains("is no fixed point"), "the point is rounded");
+        assert!(lorenz("8.48", rounded).contains("is not a fixed point"), "the point is rounded");
     }
 }

@@ -91,16 +91,18 @@ impl Judging<'_> {
         // What is divided by in lowest terms follows from an identity in the same variables.
         let is_identity =
             filling.kept() == sampler.kept() || self.holds_in_space(&filling, item)?;
-        let radicands: Vec<Expr> = roots.iter().map(|root| root.0).collect();
-        let outputs = [&[function, cofactor.inverse][..], &poles, &radicands].concat();
+        let only = |roots: &[(Expr, Need)]| roots.iter().map(|root| root.0).collect::<Vec<Expr>>();
+        let (radicands, known) = (only(&roots), only(&roots_of_field));
+        let outputs = [&[function, cofactor.inverse][..], &poles, &radicands, &known].concat();
         let Some(combinations) = combinations(filling.recipes()) else { return Ok(false) };
         for fixed in combinations {
             let (graph, groups) =
                 filling.compose(self.graph, std::slice::from_ref(&outputs), &fixed)?;
             let group = groups.concat();
-            let (function, (poles, radicands)) = (group[0], group[2..].split_at(poles.len()));
+            let (function, (poles, others)) = (group[0], group[2..].split_at(poles.len()));
+            let (radicands, known) = others.split_at(roots.len());
             for (radicand, (_, need)) in radicands.iter().zip(&roots) {
-                if !has_root_on_zeros(&graph, &extents, (function, *radicand), *need)? {
+                if !has_root_on_zeros(&graph, &extents, (function, known), (*radicand, *need))? {
                     return Ok(false);
                 }
             }
@@ -138,21 +140,25 @@ fn are_apart(graph: &Graph, extents: &[Extent], function: Expr, pole: Expr) -> b
         && !is_nowhere_zero(graph, extents, &[], &[function])
 }
 
-/// Whether what is under a root or a logarithm is known to be as needed at all zeros of a function.
+/// Whether what is under a root or a logarithm is known to be as needed at all zeros of a function, where what is
+/// under the roots of the field is not negative.
 fn has_root_on_zeros(
     graph: &Graph,
     extents: &[Extent],
-    (function, radicand): (Expr, Expr),
-    need: Need,
+    (function, known): (Expr, &[Expr]),
+    (radicand, need): (Expr, Need),
 ) -> Result<bool, Fault> {
-    let reached = graph.reached([function, radicand]);
+    let all = [&[function, radicand][..], known].concat();
+    let reached = graph.reached(all.iter().copied());
     let (made, values) = record(graph.inputs(), |inputs| {
         let values = graph.repeated(&reached, inputs);
-        let [function, radicand] = [function, radicand].map(|own| values[graph.place(own)]);
-        Some(([function?, -function?], radicand?))
+        let made: Option<Vec<Expr>> = all.iter().map(|own| values[graph.place(*own)]).collect();
+        let made = made?;
+        let (function, radicand) = (made[0], made[1]);
+        Some(([&[function, -function][..], &made[2..]].concat(), radicand))
     })?;
-    let Some((zero, radicand)) = values else { return Ok(false) };
-    let found = sign(&made, extents, &[], &zero, radicand);
+    let Some((facts, radicand)) = values else { return Ok(false) };
+    let found = sign(&made, extents, &[], &facts, radicand);
     Ok(found.is_some_and(|own| own.is_positive && !(own.may_vanish && need.nonzero)))
 }
 

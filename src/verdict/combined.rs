@@ -111,6 +111,7 @@ impl Judging<'_> {
             return Ok(None);
         }
         let parameters = if all * level.len() > MOST_PRODUCTS { 0 } else { parameters };
+        let has_room_for = |more: usize| (all + more) * level.len() <= MOST_PRODUCTS;
         let first = graph.inputs();
         let inputs = first + symbols.len() + circles.count();
         let (graph, made) = record(inputs, |inputs| {
@@ -127,6 +128,10 @@ impl Judging<'_> {
             let own: Vec<Expr> = level.iter().map(at).collect::<Option<_>>()?;
             let mut factors: Vec<Expr> =
                 multipliers.iter().map(|place| made[*place]).collect::<Option<_>>()?;
+            // Sines of sums are products of these, and may be multiples themselves.
+            if has_room_for(turned.len()) {
+                factors.extend(turned.values());
+            }
             for point in points.concat() {
                 factors.push(point);
                 factors.extend(inputs[..parameters].iter().map(|parameter| point * *parameter));

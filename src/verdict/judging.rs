@@ -232,6 +232,14 @@ impl Judging<'_> {
     ) -> Result<Option<String>, JudgeError> {
         let listed = self.case.model.undetermined.len();
         let hidden = self.common.motion.get(listed..).unwrap_or_default();
+        let open = &self.common.open_divisors;
+        if !open.is_empty() {
+            let values = self.run(open).at(&Ball::<TAPE_LANES>, states);
+            let is_defined = |lane| (0..open.len()).all(|k| values.output(k).is_defined(lane));
+            if !(0..TAPE_LANES).any(is_defined) {
+                return Err(JudgeError::Singular(TAPE_LANES as u64));
+            }
+        }
         let written = [hidden, &self.common.requirement].concat();
         if written.is_empty() {
             return Ok(None);

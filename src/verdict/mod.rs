@@ -63,6 +63,7 @@ mod sampler;
 mod second_opinion;
 mod signs;
 mod slopes_of_constraints;
+mod squares_of_rates;
 mod state;
 mod statement;
 mod sum_of_squares;

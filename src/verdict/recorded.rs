@@ -93,6 +93,8 @@ pub struct SharedTerms {
     pub requirement: Vec<Expr>,
     /// Values that exist for the listed values for which the equations of motion have one.
     pub motion: Vec<Expr>,
+    /// Inverses of what the equations of motion are divided by, where nothing is known of it.
+    pub open_divisors: Vec<Expr>,
     /// Formulas of the level functions as written, by equation.
     level_requirement: Vec<Vec<Expr>>,
     /// Level functions, zero on the level.
@@ -133,6 +135,7 @@ impl SharedTerms {
             field: phase.field().to_vec(),
             requirement: phase.literal_values(phase.model().equations_of_motion()),
             motion: phase.existence_of_motion(),
+            open_divisors: phase.open_divisors(),
             level_requirement: {
                 let formula = |equation: &LevelEquation| match &equation.function {
                     LevelFunction::Formula(formula) => phase.literal_values([formula]),

@@ -302,7 +302,7 @@ fn a_cofactor_without_a_value_at_the_zeros_says_nothing_of_them() {
         judge(&case, &Options::default()).expect("judged").claims[0].verdict
     };
     // At x = 0 the field is 2.
-    for cofactor in ["√(x^2 - 1)*√(x^2 - 1)", "√(x^2 - 1)^2", "x^2 - 1 + 0*√(x^2 - 1)"] {
+    for cofactor in ["√(x^2 - 1)*√(x^2 - 1)", "x^2 - 1 + 0*√(x^2 - 1)"] {
         assert_eq!(judged(cofactor), Verdict::Undecided, "{cofactor}");
     }
     assert_eq!(judged("x^2 - 1"), Verdict::Refuted);

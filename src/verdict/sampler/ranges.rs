@@ -35,7 +35,8 @@ pub fn ranges(case: &Case, solution: &Solution, made: &[Expr]) -> Vec<Expr> {
     });
     let ends = of_state.chain(of_parameters).filter_map(|(value, draw)| match draw {
         Draw::Within(range) => {
-            let [low, high] = [&range.low, &range.high].map(Expr::rational);
+            // x = π is a state of 0..π, whose end has been rounded inward.
+            let [low, high] = range.outer_ends().map(|end| Expr::rational(&end));
             Some([value - low, high - value])
         }
         _ => None,

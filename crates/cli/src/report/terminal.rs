@@ -254,6 +254,9 @@ fn remark(claim: &ClaimReport) -> String {
                 if evidence.method != Method::Ball {
                     words.push(evidence.method.to_string());
                 }
+            } else if evidence.method == Method::Motion {
+                words.extend(evidence.reason.clone());
+                words.push(evidence.method.to_string());
             } else {
                 words.push(format!("on an open set of states, {}", evidence.method));
             }

@@ -183,11 +183,8 @@ fn a_proof_is_one_where_a_proof_is_asked_for() {
 fn what_is_no_claim_is_refused_in_its_words() {
     let wrong = [
         ("closed-orbit = -1\nstate = { x = \"2\" }", "does not have the period -1"),
-        ("closed-orbit = 6\nstate = { x = \"2\" }\ndensity = \"1\"", "cannot be claimed here"),
-        (
-            "closed-orbit = 6\nstate = { x = \"2\" }\ndivergence = \"zero\"",
-            "cannot be claimed here",
-        ),
+        ("closed-orbit = 6\nstate = { x = \"2\" }\ndensity = \"1\"", "is not a value of"),
+        ("closed-orbit = 6\nstate = { x = \"2\" }\ndivergence = \"zero\"", "is not a value of"),
         ("closed-orbit = 6", "has no `start`"),
         ("closed-orbit = 6\nstate = { x = \"2\" }\nintegral = \"x\"", "makes 2 statements"),
     ];

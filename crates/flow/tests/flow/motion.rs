@@ -227,7 +227,7 @@ fn a_fixed_parameter_has_no_limit() {
 #[test]
 fn wrong_input_is_refused_in_its_words() {
     let wrong = [
-        ("exponent = \"large\"\nstart = [1, 0]\ntime = 10", "cannot be claimed here"),
+        ("exponent = \"large\"\nstart = [1, 0]\ntime = 10", "is not a value of"),
         ("exponent = \"zero\"\nstart = [1, 0]", "has no `time`"),
         ("exponent = \"zero\"\nstart = [1, 0]\ntime = -1", "cannot be followed"),
         ("exponent = \"zero\"\ntime = 10", "has no `start`"),

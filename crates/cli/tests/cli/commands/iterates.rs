@@ -154,6 +154,6 @@ fn maps_and_flows_have_their_own_options() {
     refuse(&[&map[..], &["--every", "1/2", "--out", "a.csv"]].concat(), "a whole number from 1 on");
     refuse(&[&map[..], &["--columns", "t, x", "--out", "a.csv"]].concat(), "unknown name `t`");
     let flow = ["motion", "orbit", "classical/tops/euler", "--iterates", "10"];
-    refuse(&flow, "is no map");
+    refuse(&flow, "is not a map");
     refuse(&["motion", "section", "classical/maps/standard"], "motion orbit --iterates N");
 }

@@ -70,8 +70,8 @@ fn files_are_written_whole_or_not_at_all() {
     };
     refuse("good.toml", "is a file that the command reads");
     assert_eq!(fs::read_to_string(&case).expect("the case"), GOOD, "it is as it was");
-    refuse("k.pdf", "the ending of");
-    refuse("k", "the ending of");
+    refuse("k.pdf", "the format of");
+    refuse("k", "the format of");
     refuse("none/k.html", "does not exist");
     refuse("", "is a folder");
     liouville(&["report", &case, "--out", &file("old.html")]).assert().code(0);

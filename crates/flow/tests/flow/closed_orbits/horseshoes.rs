@@ -159,7 +159,7 @@ fn no_horseshoe_is_proved_where_there_is_none() {
 fn mistakes_in_horseshoes_have_a_place() {
     for (from, to, expected) in [
         ("6.2832", "-1", "does not have the period -1"),
-        ("integral = \"none\"", "integral = \"x\"", "cannot be claimed here"),
+        ("integral = \"none\"", "integral = \"x\"", "is not a value of"),
         ("integrals = [", "density = \"none\"\nintegrals = [", "makes 2 statements"),
     ] {
         let text = INTEGRABLE.replace(from, to);
