@@ -94,7 +94,9 @@ impl Statement for Lyapunov {
     }
 
     fn presence(&self, jet: &DualPoint<'_, Expr>, _: &[bool]) -> Vec<Expr> {
-        vec![self.growth(jet)]
+        // A form that is guessed, as one with logarithms, shows nothing where it has no value.
+        let forms = jet.phase.literal_values(&self.form);
+        [self.growth(jet)].into_iter().chain(forms).collect()
     }
 
     fn text(&self) -> Option<String> {

@@ -37,6 +37,9 @@ impl Unmet {
     }
 }
 
+/// Largest number of operations of a value that is read as a quotient in lowest terms.
+const MOST_REDUCED: usize = 64;
+
 impl Judging<'_> {
     /// Leaves claims undecided if an essential condition is not known to hold, and adds remarks to
     /// others.
@@ -277,7 +280,8 @@ impl Judging<'_> {
             let (graph, groups) = sampler.compose(self.graph, &[vec![value]], &fixed)?;
             // A quotient in lowest terms is the same value wherever the other exists.
             let holds = |value: Expr| {
-                let reduced = || reduced_value(&graph, value);
+                let is_small = graph.operations(&[value]) <= MOST_REDUCED;
+                let reduced = || is_small.then(|| reduced_value(&graph, value)).flatten();
                 test(&graph, &extents, value)
                     || reduced().is_some_and(|(graph, value)| test(&graph, &extents, value))
             };

@@ -177,3 +177,24 @@ fn rates_whose_terms_cancel_are_seen() {
     let found = judged(&near).claims[0].verdict;
     assert!(matches!(found, Refuted | Undecided), "{}", found.word());
 }
+
+#[test]
+fn a_form_without_a_value_at_few_states_shows_nothing_there() {
+    // u is negative near one point, where ln u² has a value and ln u has none.
+    let squares = "title = 'x'\ncheck-weights = false\n[parameters]\na = '0.1..0.5'\n[state]\nx = '-1..1'\n\
+                   y = '-1..1'\nz = '-1..1'\nw = '-1..1'\n[let]\n\
+                   u = '1 - 2*exp(-10^8*((x - 3/10)^2 + (y - 7/10)^2 + (z - 4/10)^2))'\n[field]\n\
+                   x = '0'\ny = '0'\nz = '0'\nw = '(a - u)*(ln(u^2) - ln(a^2))'\n[[claim]]\nlyapunov = 'w'\n";
+    verdicts(squares, &[Undecided]);
+    verdicts(&squares.replace("2*exp", "exp"), &[Proved]);
+    // Volterra's form x/p − 1 − ln(x/p) needs p > 0.
+    let volterra = |p: &str| {
+        format!(
+            "title = 'x'\ncheck-weights = false\n[parameters]\na = '-1..1'\nb = '-1..1'\nc = '-1..1'\n[let]\n\
+             p = '(a-3/10)^2 + (b-7/10)^2 + (c-4/10)^2 {p} 1/10^10'\n[state]\nx = '0.1..2'\n[field]\n\
+             x = '-(x-p)/(x*p)'\n[[claim]]\nlyapunov = '(x-p)^2/2'\n"
+        )
+    };
+    verdicts(&volterra("-"), &[Undecided]);
+    verdicts(&volterra("+"), &[Proved]);
+}
