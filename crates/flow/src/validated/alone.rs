@@ -122,12 +122,18 @@ impl OrbitSearch<'_> {
             return None;
         }
         let delay = self.slant() * (tube + first) / largest;
-        let states: Vec<Boxed> = (self.nodes.states.iter())
-            .map(|state| state.iter().map(|x| Enclosure::about(*x, tube)).collect())
-            .collect();
-        let fields = self.shooting.motion.field(&states);
-        let fastest = fields.iter().flatten().fold(0.0, |a: f64, x| a.max(x.magnitude()));
-        Some(tube + TURN * fastest * delay).filter(|reach| reach.is_finite())
+        let fastest_within = |radius: f64| {
+            let about = |state: &Vec<f64>| -> Boxed {
+                state.iter().map(|x| Enclosure::about(*x, radius)).collect()
+            };
+            let states: Vec<Boxed> = self.nodes.states.iter().map(about).collect();
+            let fields = self.shooting.motion.field(&states);
+            fields.iter().flatten().fold(0.0, |a: f64, x| a.max(x.magnitude()))
+        };
+        let fastest = TURN * fastest_within(tube);
+        let reach = tube + fastest * delay;
+        // Motions that leave the tube in that time are no faster where they come to.
+        (reach.is_finite() && fastest_within(reach) <= fastest).then_some(reach)
     }
 
     /// Whether an orbit found before begins next to the first node and has a period that counts here.
