@@ -175,12 +175,15 @@ impl Statement for Relation {
         let inverse = jet.phase.scalar(&self.cofactor).recip();
         let integrands = jet.phase.presupposed(&self.cofactor).into_iter();
         let integrands = integrands.map(|factor| (factor, factor.recip()));
-        let condition = |(factor, inverse)| Condition {
+        let condition = |(factor, inverse)| {
+            Condition {
             need: Need::ValueOnZeros { function, factor, inverse },
             otherwise:
-                "it is not known that the cofactor has a value where F = 0: cancel its denominator"
+                "it is not known that the cofactor has a value where F = 0: cancel its denominator, \
+                 and write roots of what is not negative there"
                     .to_string(),
             is_essential: true,
+        }
         };
         let zeros = Condition {
             need: Need::Zeros { function },

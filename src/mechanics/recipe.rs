@@ -24,20 +24,6 @@ impl Range {
         Self { low: Rational::new(low.0, low.1), high: Rational::new(high.0, high.1) }
     }
 
-    /// Returns ends that include those of the range as it is written: an end with all the digits of f64 is one that is
-    /// not rational, as π, rounded inward.
-    pub fn outer_ends(&self) -> [Rational; 2] {
-        const DIGITS: u64 = 50;
-        let moved = |end: &Rational, step: fn(f64) -> f64| {
-            let (value, is_exact) = end.to_f64();
-            let (above, _) = end.parts();
-            let is_rounded = is_exact && above.bits() > DIGITS;
-            let wider = is_rounded.then(|| Rational::from_f64(step(value))).flatten();
-            wider.unwrap_or_else(|| end.clone())
-        };
-        [moved(&self.low, f64::next_down), moved(&self.high, f64::next_up)]
-    }
-
     fn halved(&self) -> Self {
         let half = Rational::new(1, 2);
         Self { low: &self.low * &half, high: &self.high * &half }

@@ -82,6 +82,13 @@ impl Judging<'_> {
         let roots_of_field = roots_of(self.graph, &self.common.required_at(sampler.kept()));
         let mut roots = roots_of(self.graph, &[cofactor.factor]);
         roots.retain(|root| moves(&root.0) && !roots_of_field.contains(root));
+        let mut open = Vec::new();
+        for root in roots {
+            if !self.is_nowhere_negative(sampler, root)? {
+                open.push(root);
+            }
+        }
+        let roots = open;
         if poles.is_empty() && roots.is_empty() {
             return Ok(true);
         }
@@ -113,6 +120,30 @@ impl Judging<'_> {
             };
             // In lowest terms the denominator may be smaller than written.
             if !poles.is_empty() && !are_coprime(&group[..2]) && !poles.iter().all(is_apart) {
+                return Ok(false);
+            }
+        }
+        Ok(true)
+    }
+
+    /// Whether what is under a root is not negative at any state of a place, and so, by continuity, at points that its
+    /// states miss; a logarithm needs more.
+    fn is_nowhere_negative(
+        &self,
+        sampler: &Sampler,
+        (radicand, need): (Expr, Need),
+    ) -> Result<bool, Fault> {
+        let Some(combinations) = combinations(sampler.recipes()) else { return Ok(false) };
+        if need.nonzero || sampler.is_numerical() {
+            return Ok(false);
+        }
+        let extents = sampler.extents();
+        for fixed in combinations {
+            let (graph, groups) = sampler.compose(self.graph, &[vec![radicand]], &fixed)?;
+            let is_known = groups.concat().into_iter().all(|own| {
+                sign(&graph, &extents, &[], &[], own).is_some_and(|own| own.is_positive)
+            });
+            if !is_known {
                 return Ok(false);
             }
         }

@@ -35,8 +35,7 @@ pub fn ranges(case: &Case, solution: &Solution, made: &[Expr]) -> Vec<Expr> {
     });
     let ends = of_state.chain(of_parameters).filter_map(|(value, draw)| match draw {
         Draw::Within(range) => {
-            // x = π is a state of 0..π, whose end has been rounded inward.
-            let [low, high] = range.outer_ends().map(|end| Expr::rational(&end));
+            let [low, high] = [&range.low, &range.high].map(Expr::rational);
             Some([value - low, high - value])
         }
         _ => None,

@@ -153,8 +153,17 @@ impl Angle {
             Step::Constant(value) => Some(value),
             _ => None,
         };
-        self.has_quarter |= of_quarter;
-        match graph.step(at) {
+        let step = graph.step(at);
+        let own_quarters = match step {
+            Step::Constant(value) if of_quarter => Some(&factor * value),
+            step if !of_quarter && is_one_eighth(graph, step) => Some(factor.clone()),
+            _ => None,
+        };
+        self.has_quarter |= of_quarter || own_quarters.is_some();
+        if own_quarters.is_some_and(|quarters| self.has_included(&quarters)) {
+            return;
+        }
+        match step {
             Step::Binary(BinaryOperation::Add, a, b) => {
                 open.extend([(b, factor.clone(), of_quarter), (a, factor, of_quarter)]);
                 return;
@@ -175,17 +184,6 @@ impl Angle {
                     {
                         return open.push((b, &factor * &own, true));
                     }
-                }
-            }
-            Step::Constant(value) if of_quarter => {
-                if self.has_included(&(&factor * value)) {
-                    return;
-                }
-            }
-            step if !of_quarter && is_one_eighth(graph, step) => {
-                self.has_quarter = true;
-                if self.has_included(&factor) {
-                    return;
                 }
             }
             Step::Unary(UnaryFunction::Atan, a) if !of_quarter && number(a).is_none() => {
