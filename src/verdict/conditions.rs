@@ -37,8 +37,8 @@ impl Unmet {
     }
 }
 
-/// Largest number of operations of a value that is read as a quotient in lowest terms.
-const MOST_REDUCED: usize = 64;
+/// Largest numbers of operations and of inputs of a value that is read as a quotient in lowest terms.
+const MOST_REDUCED: [usize; 2] = [48, 4];
 
 impl Judging<'_> {
     /// Leaves claims undecided if an essential condition is not known to hold, and adds remarks to
@@ -280,7 +280,8 @@ impl Judging<'_> {
             let (graph, groups) = sampler.compose(self.graph, &[vec![value]], &fixed)?;
             // A quotient in lowest terms is the same value wherever the other exists.
             let holds = |value: Expr| {
-                let is_small = graph.operations(&[value]) <= MOST_REDUCED;
+                let size = [graph.operations(&[value]), graph.inputs_of(value).len()];
+                let is_small = size.iter().zip(MOST_REDUCED).all(|(own, most)| *own <= most);
                 let reduced = || is_small.then(|| reduced_value(&graph, value)).flatten();
                 test(&graph, &extents, value)
                     || reduced().is_some_and(|(graph, value)| test(&graph, &extents, value))
