@@ -72,18 +72,22 @@ impl Phase<'_, Expr> {
             System::Lagrangian(_) => written.to_vec(),
             _ => [written, self.field()].concat(),
         };
-        let hidden = |divisors: Vec<Expr>| {
-            let inverse = |divisor: Expr| literally(|| divisor.apply(UnaryFunction::Recip));
-            left_out(&kept, &divisors.into_iter().map(inverse).collect::<Vec<Expr>>())
-        };
-        hidden(match (system, system.inertia_divisor(&self.configuration)) {
+        let inverses = match (system, system.inertia_divisor(&self.configuration)) {
             // The rate of γ shows what else a body divides by.
-            (_, Some(divisor)) => vec![divisor],
-            (System::Lagrangian(_), None) => divisors_of(|| {
-                self.with(&[], &self.state()).field();
-            }),
+            (_, Some(divisor)) => vec![literally(|| divisor.apply(UnaryFunction::Recip))],
+            (System::Lagrangian(_), None) => self.inverse_divisors(),
             _ => Vec::new(),
-        })
+        };
+        left_out(&kept, &inverses)
+    }
+
+    /// Records the inverses of what the rates are divided by when they are solved for.
+    fn inverse_divisors(&self) -> Vec<Expr> {
+        let divisors = divisors_of(|| {
+            self.with(&[], &self.state()).field();
+        });
+        let inverse = |divisor: Expr| literally(|| divisor.apply(UnaryFunction::Recip));
+        divisors.into_iter().map(inverse).collect()
     }
 
     /// Records the inverses of what the equations of motion are divided by, where nothing is known of it: a claim that
@@ -91,11 +95,7 @@ impl Phase<'_, Expr> {
     pub fn open_divisors(&self) -> Vec<Expr> {
         match &self.model().system {
             System::Lagrangian(own) if !own.has_known_divisors(self.model()) => {
-                let divisors = divisors_of(|| {
-                    self.with(&[], &self.state()).field();
-                });
-                let inverse = |divisor: Expr| literally(|| divisor.apply(UnaryFunction::Recip));
-                divisors.into_iter().map(inverse).collect()
+                self.inverse_divisors()
             }
             _ => Vec::new(),
         }

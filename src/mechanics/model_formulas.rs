@@ -99,23 +99,21 @@ impl Model {
 
     /// Whether a formula contains quantities that the system defines, such as rates.
     pub fn has_quantities(&self, formula: &Formula) -> bool {
-        formula.symbols().any(|symbol| match self.vocabulary.entry(symbol).meaning {
-            Meaning::Quantity(_) => true,
-            Meaning::Abbreviation(index) => {
-                self.abbreviations.get(index).is_some_and(|own| self.has_quantities(own))
-            }
-            Meaning::Parameter(_) | Meaning::State(_) => false,
-        })
+        self.has_quantity(formula, &|_| true)
     }
 
     /// Whether a formula contains rates that the equations of motion give, or reactions.
     pub fn has_rates(&self, formula: &Formula) -> bool {
+        self.has_quantity(formula, &|own| matches!(own, Quantity::Rate(_) | Quantity::Reaction(_)))
+    }
+
+    /// Whether a formula contains some quantity, itself or by an abbreviation.
+    fn has_quantity(&self, formula: &Formula, is_meant: &dyn Fn(Quantity) -> bool) -> bool {
         formula.symbols().any(|symbol| match self.vocabulary.entry(symbol).meaning {
-            Meaning::Quantity(quantity) => {
-                matches!(quantity, Quantity::Rate(_) | Quantity::Reaction(_))
-            }
+            Meaning::Quantity(own) => is_meant(own),
             Meaning::Abbreviation(index) => {
-                self.abbreviations.get(index).is_some_and(|own| self.has_rates(own))
+                let own = self.abbreviations.get(index);
+                own.is_some_and(|own| self.has_quantity(own, is_meant))
             }
             Meaning::Parameter(_) | Meaning::State(_) => false,
         })

@@ -241,8 +241,9 @@ fn recording(case: &Case) -> Result<(Graph, (Vec<RecordedClaim<'_>>, SharedTerms
     record(model.free_components() + model.dimension(), |inputs| {
         let (parameters, state) = inputs.split_at(model.free_components());
         let jet = DualPoint::new(Phase::new(model, parameters, state));
+        let open = jet.phase.open_divisors();
         let recorded: Vec<RecordedClaim<'_>> =
-            case.claims.iter().map(|claim| RecordedClaim::new(claim, &jet)).collect();
+            case.claims.iter().map(|claim| RecordedClaim::new(claim, &jet, &open)).collect();
         (recorded, SharedTerms::of(&jet))
     })
 }

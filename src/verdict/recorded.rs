@@ -40,12 +40,15 @@ pub struct Wider {
 
 impl<'c> RecordedClaim<'c> {
     /// Records the residual of a claim, at its place and in wider ones, and its context.
-    pub fn new(claim: &'c PlacedClaim, jet: &DualPoint<'_, Expr>) -> Self {
+    ///
+    /// `open` are the open divisors of the equations of motion, which claims about motions need.
+    pub fn new(claim: &'c PlacedClaim, jet: &DualPoint<'_, Expr>, open: &[Expr]) -> Self {
         let model = jet.phase.model();
         let names_rates = || claim.kind.formulas().into_iter().any(|own| model.has_rates(own));
         let is_of_motions = claim.kind.of_motions() != OfMotions::Nothing || names_rates();
-        let open = if is_of_motions { jet.phase.open_divisors() } else { Vec::new() };
-        let presence = claim.kind.presence(jet, &claim.place.kept).into_iter().chain(open);
+        let open = if is_of_motions { open } else { &[] };
+        let presence =
+            claim.kind.presence(jet, &claim.place.kept).into_iter().chain(open.iter().copied());
         let presence: Vec<Expr> = presence.filter(|value| !value.is_always_defined()).collect();
         // 0 where the value exists, and undefined elsewhere.
         let zeros: Vec<Expr> =

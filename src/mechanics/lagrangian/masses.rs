@@ -45,8 +45,9 @@ impl AccelerationSolver {
     const MINORS: Self = Self { by_minors: true, ..Self::ELIMINATION };
 }
 
-/// Masses of a Lagrangian as functions of the draws, with all that elimination divides by.
-struct DrawnMasses {
+/// Masses of a Lagrangian as functions of the symbols of the case, or of the draws of a place, with all that elimination
+/// divides by.
+struct RecordedMasses {
     graph: Graph,
     masses: Vec<Expr>,
     divisors: Vec<Expr>,
@@ -73,63 +74,36 @@ impl Lagrangian {
         if !level.is_empty() {
             places.push(vec![false; level.len()]);
         }
-        let is_regular = |own: &Self| {
-            places.iter().all(|kept| own.is_regular_at((model, chart, kept), free, &velocities))
+        let is_regular = |own: &RecordedMasses| {
+            places.iter().all(|kept| own.are_regular_at((model, chart, kept), free))
         };
-        let is_known = is_regular(self);
+        let own = self.symbolic_masses(model, &velocities);
+        let is_known = own.as_ref().is_ok_and(is_regular);
         let are_few = velocities.len() + self.constraints.len() <= MOST_BY_MINORS;
-        if are_few && !is_known || self.is_indefinite(model, chart, free, &velocities) {
+        let is_indefinite = || {
+            let count = velocities.len();
+            own.as_ref().is_ok_and(|own| own.are_indefinite((model, chart, &level), free, count))
+        };
+        if are_few && !is_known || is_indefinite() {
             return AccelerationSolver::MINORS;
         }
         if is_known || self.constraints.is_empty() {
             return AccelerationSolver { is_known, ..AccelerationSolver::ELIMINATION };
         }
         let solver = AccelerationSolver { with_slopes: true, ..AccelerationSolver::ELIMINATION };
-        let is_known = is_regular(&Self { solver, ..self.clone() });
+        let with_slopes = Self { solver, ..self.clone() };
+        let is_known =
+            with_slopes.symbolic_masses(model, &velocities).is_ok_and(|own| is_regular(&own));
         AccelerationSolver { is_known, ..solver }
-    }
-
-    /// Whether all divisors are known to be 0 on no open set of states of a place, for each choice of listed values.
-    fn is_regular_at(
-        &self,
-        (model, chart, kept): (&Model, &Chart, &[bool]),
-        free: &[Draw],
-        velocities: &[usize],
-    ) -> bool {
-        let draws = [model.parameter_draws(), chart.draws(free, kept)].concat();
-        let Some(choices) = combinations(&draws) else { return false };
-        let Ok(own) = self.symbolic_masses(model, velocities) else { return false };
-        choices.iter().all(|choice| {
-            let drawn = own.drawn((model, chart, kept), choice);
-            drawn.and_then(|drawn| drawn.has_divisors(&draws)).unwrap_or(false)
-        })
-    }
-
-    /// Whether f64 shows masses of both signs at one of the first states.
-    fn is_indefinite(
-        &self,
-        model: &Model,
-        chart: &Chart,
-        free: &[Draw],
-        velocities: &[usize],
-    ) -> bool {
-        if velocities.len() > MOST_VELOCITIES {
-            return false;
-        }
-        let kept = vec![true; model.level.len()];
-        let draws = [model.parameter_draws(), chart.draws(free, &kept)].concat();
-        let any = vec![None; draws.len()];
-        let drawn = self
-            .symbolic_masses(model, velocities)
-            .and_then(|own| own.drawn((model, chart, &kept), &any));
-        let Ok(drawn) = drawn else { return false };
-        let choices = combinations(&draws).unwrap_or_else(|| vec![any]);
-        drawn.is_indefinite_somewhere(velocities.len(), &draws, &choices)
     }
 
     /// Records masses and divisors in the symbols of parameters and state, as the equations of motion are: a mass that
     /// is 0 for a listed value, or on the level, is eliminated nevertheless.
-    fn symbolic_masses(&self, model: &Model, velocities: &[usize]) -> Result<DrawnMasses, Fault> {
+    fn symbolic_masses(
+        &self,
+        model: &Model,
+        velocities: &[usize],
+    ) -> Result<RecordedMasses, Fault> {
         let free = model.free_components();
         let (graph, (masses, divisors)) = record(free + model.dimension(), |inputs| {
             let (parameters, state) = inputs.split_at(free);
@@ -139,7 +113,7 @@ impl Lagrangian {
             });
             (self.masses(&phase.configuration, velocities).concat(), divisors)
         })?;
-        Ok(DrawnMasses { graph, masses, divisors })
+        Ok(RecordedMasses { graph, masses, divisors })
     }
 
     fn masses(&self, at: &Configuration<'_, Expr>, velocities: &[usize]) -> Vec<Vec<Expr>> {
@@ -172,7 +146,36 @@ pub(super) fn eliminated<T: Scalar>(matrix: &[Vec<T>], sides: Vec<Vec<T>>) -> Ve
     sides.into_iter().map(|side| solve_positive(matrix.to_vec(), side)).collect()
 }
 
-impl DrawnMasses {
+impl RecordedMasses {
+    /// Whether all divisors are known to be 0 on no open set of states of a place, for each choice of listed values.
+    fn are_regular_at(&self, place: (&Model, &Chart, &[bool]), free: &[Draw]) -> bool {
+        let (model, chart, kept) = place;
+        let draws = [model.parameter_draws(), chart.draws(free, kept)].concat();
+        let Some(choices) = combinations(&draws) else { return false };
+        choices.iter().all(|choice| {
+            let drawn = self.drawn(place, choice);
+            drawn.and_then(|drawn| drawn.has_divisors(&draws)).unwrap_or(false)
+        })
+    }
+
+    /// Whether f64 shows masses of both signs at one of the first states of a place, for this number of velocities.
+    fn are_indefinite(
+        &self,
+        place: (&Model, &Chart, &[bool]),
+        free: &[Draw],
+        count: usize,
+    ) -> bool {
+        if count > MOST_VELOCITIES {
+            return false;
+        }
+        let (model, chart, kept) = place;
+        let draws = [model.parameter_draws(), chart.draws(free, kept)].concat();
+        let any = vec![None; draws.len()];
+        let Ok(drawn) = self.drawn(place, &any) else { return false };
+        let choices = combinations(&draws).unwrap_or_else(|| vec![any]);
+        drawn.is_indefinite_somewhere(count, &draws, &choices)
+    }
+
     /// Writes them as functions of the draws of a place, with a choice of listed values inserted; values of arbitrary
     /// functions are further inputs.
     fn drawn(

@@ -6,7 +6,7 @@ use super::motion::EnclosedMotion;
 use crate::motion::start::Start;
 use liouville::mechanics::Model;
 
-/// How long the steps are.
+/// Rule for the length of the steps.
 #[derive(Clone, Copy, Debug)]
 pub enum Division {
     /// As the coefficients suggest, with this constant of the step size; a larger one makes shorter

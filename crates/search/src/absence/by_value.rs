@@ -1,5 +1,7 @@
 //! Claims of absence for each combination of listed values: one invariant for one of them contradicts the claim.
 
+use std::time::Duration;
+
 use super::super::lists::{ListedCase, combinations, first_values};
 use super::super::local::Coordinates;
 use super::super::{Effort, SearchError};
@@ -33,16 +35,7 @@ pub fn judged(
     let mut theorems: Vec<(String, String)> = Vec::new();
     let share = MOST_TIME / all.len().clamp(1, MOST) as u32;
     for ListedCase { case: fixed, values } in all.iter().take(MOST) {
-        let effort = Effort { options, ..Effort::default() };
-        // What is proved for all values is proved for each.
-        let known = ProvedIntegrals::of(fixed, (reports, others), &effort)?;
-        let coordinates = Coordinates::of(fixed);
-        let mut asked = AbsenceCase::new(fixed, (&known, &coordinates), reports, options);
-        asked.effort.halt = Halt::within(share);
-        asked.named = &case.model;
-        let told =
-            asked.judge(kind).unwrap_or_else(|error| AbsenceOutcome::Open(error.to_string()));
-        match told {
+        match with_values(case, fixed, kind, (reports, others), (options, share))? {
             AbsenceOutcome::Exhibited(what) => {
                 return Ok(Some(AbsenceOutcome::Exhibited(format!("for {values}, {what}"))));
             }
@@ -82,15 +75,28 @@ pub fn contradicted(
     let all = combinations(case).unwrap_or_default();
     let share = MOST_TIME / all.len().clamp(1, MOST) as u32;
     for ListedCase { case: fixed, values } in all.iter().take(MOST) {
-        let effort = Effort { options, ..Effort::default() };
-        let known = ProvedIntegrals::of(fixed, (reports, others), &effort)?;
-        let coordinates = Coordinates::of(fixed);
-        let mut asked = AbsenceCase::new(fixed, (&known, &coordinates), reports, options);
-        asked.effort.halt = Halt::within(share);
-        asked.named = &case.model;
-        if let Ok(AbsenceOutcome::Exhibited(what)) = asked.judge(kind) {
+        let found = with_values(case, fixed, kind, (reports, others), (options, share))?;
+        if let AbsenceOutcome::Exhibited(what) = found {
             return Ok(Some(format!("for {values}, {what}")));
         }
     }
     Ok(None)
+}
+
+/// Judges a claim for one combination of listed values, within a share of the time.
+fn with_values(
+    case: &Case,
+    fixed: &Case,
+    kind: &Absence,
+    (reports, others): (&[ClaimReport], &[Formula]),
+    (options, share): (Options, Duration),
+) -> Result<AbsenceOutcome, SearchError> {
+    let effort = Effort { options, ..Effort::default() };
+    // What is proved for all values is proved for each.
+    let known = ProvedIntegrals::of(fixed, (reports, others), &effort)?;
+    let coordinates = Coordinates::of(fixed);
+    let mut asked = AbsenceCase::new(fixed, (&known, &coordinates), reports, options);
+    asked.effort.halt = Halt::within(share);
+    asked.named = &case.model;
+    Ok(asked.judge(kind).unwrap_or_else(|error| AbsenceOutcome::Open(error.to_string())))
 }
