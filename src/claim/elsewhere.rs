@@ -13,6 +13,7 @@ use crate::mechanics::{LevelFunction, Model, Phase};
 pub(super) fn system_at(at: &Phase<'_, Expr>, kept: &[bool]) -> Vec<Expr> {
     let mut values = formulas_at(at);
     values.extend(at.hidden_in_motion(&values));
+    values.extend(at.open_divisors());
     values.extend(level_at(at, kept));
     values
 }

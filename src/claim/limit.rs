@@ -149,6 +149,7 @@ impl Statement for Limit {
             && self.expanded(&jet.phase, &at, &self.function).iter().any(Option::is_none)
         {
             presence.extend(at.hidden_in_motion(&[]));
+            presence.extend(at.open_divisors());
         }
         for formula in functions.into_iter().chain([&self.function]) {
             let expanded = self.expanded(&jet.phase, &at, formula);

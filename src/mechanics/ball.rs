@@ -199,10 +199,24 @@ impl Dynamics for BallOnSurface {
         self.potential.is_some() || self.rotation.is_some()
     }
 
-    /// μ(μ + D), by which ω is divided.
-    fn inertia_divisor<T: Scalar>(&self, at: &Configuration<'_, T>) -> Option<T> {
+    /// Returns μ(μ + D), by which ω is divided, and what the rate of γ is divided by: |∇F|² of a surface F = 0, or the
+    /// determinant of γ ⊗ γ − ∂r of a support function.
+    fn divisors<T: Scalar>(&self, at: &Configuration<'_, T>) -> Vec<T> {
         let (moment, radius) = (self.value(at, &self.moment), self.value(at, &self.radius));
-        Some(moment * (moment + self.value(at, &self.mass) * radius * radius))
+        let inertia = moment * (moment + self.value(at, &self.mass) * radius * radius);
+        let across = match &self.surface {
+            Surface::Level(_) | Surface::Arbitrary(_) => {
+                let (slope, _) = self.surface.second_order(at);
+                slope.dot(&slope)
+            }
+            Surface::Support(shape) => {
+                let normal = vector(at.variable(NORMAL));
+                let (_, slope) = shape.contact(at);
+                let matrix = normal * normal.transpose() - slope;
+                determinant_with(&matrix, &adjugate(&matrix))
+            }
+        };
+        vec![inertia, across]
     }
 
     fn without_forces(&self) -> Option<System> {

@@ -135,9 +135,9 @@ pub(super) trait Dynamics {
         None
     }
 
-    /// Computes the function of inertia by which the rates of a body or a ball are divided; `None` for other systems.
-    fn inertia_divisor<T: Scalar>(&self, _: &Configuration<'_, T>) -> Option<T> {
-        None
+    /// Computes what the rates of a body or a ball are divided by; nothing for other systems.
+    fn divisors<T: Scalar>(&self, _: &Configuration<'_, T>) -> Vec<T> {
+        Vec::new()
     }
 
     /// Computes χ with div v = (χ,ω) on the level.

@@ -162,10 +162,57 @@ pub fn solve_positive<T: Scalar>(mut a: Vec<Vec<T>>, mut b: Vec<T>) -> Vec<T> {
 /// polynomial.
 const MOST_COFACTORS: usize = 6;
 
-/// Solves A x = b for several b and any A, without pivots: x = adj(A) b / det A has a value exactly
-/// where det A ≠ 0, also where a leading minor of A is 0.
+/// Divides the indices of a square matrix into sets without entries between them, by their form.
+pub fn blocks<T: Scalar>(a: &[Vec<T>]) -> Vec<Vec<usize>> {
+    let mut open: Vec<usize> = (0..a.len()).collect();
+    let mut blocks = Vec::new();
+    while let Some(first) = open.first().copied() {
+        let mut block = vec![first];
+        let mut next = 0;
+        while let Some(i) = block.get(next).copied() {
+            let joined = |j: &usize| !(a[i][*j].is_absent() && a[*j][i].is_absent());
+            block.extend(
+                open.iter()
+                    .copied()
+                    .filter(|j| !block.contains(j) && joined(j))
+                    .collect::<Vec<_>>(),
+            );
+            next += 1;
+        }
+        open.retain(|i| !block.contains(i));
+        block.sort_unstable();
+        blocks.push(block);
+    }
+    blocks
+}
+
+/// The part of a matrix with the rows and columns of a block.
+fn part<T: Scalar>(a: &[Vec<T>], block: &[usize]) -> Vec<Vec<T>> {
+    block.iter().map(|i| block.iter().map(|j| a[*i][*j]).collect()).collect()
+}
+
+/// Computes the determinants of the blocks of a matrix, whose product is its determinant.
+pub fn block_determinants<T: Scalar>(a: &[Vec<T>]) -> Vec<T> {
+    blocks(a).iter().map(|block| determinant(&part(a, block))).collect()
+}
+
+/// Solves A x = b for several b and any A, without pivots: x = adj(A) b / det A for each block of A has a value
+/// exactly where det A ≠ 0, also where a leading minor of A is 0.
 #[inline(never)]
 pub fn solve_by_minors<T: Scalar>(a: &[Vec<T>], sides: &[Vec<T>]) -> Vec<Vec<T>> {
+    let mut solved: Vec<Vec<T>> = sides.to_vec();
+    for block in blocks(a) {
+        let own: Vec<Vec<T>> =
+            sides.iter().map(|side| block.iter().map(|i| side[*i]).collect()).collect();
+        for (whole, values) in solved.iter_mut().zip(block_solved(&part(a, &block), &own)) {
+            block.iter().zip(values).for_each(|(i, value)| whole[*i] = value);
+        }
+    }
+    solved
+}
+
+/// The same for a matrix of one block.
+fn block_solved<T: Scalar>(a: &[Vec<T>], sides: &[Vec<T>]) -> Vec<Vec<T>> {
     let n = a.len();
     if n > MOST_COFACTORS {
         return sides.iter().map(|b| solved_by_powers(a, b)).collect();

@@ -15,6 +15,7 @@
 mod equations;
 mod masses;
 mod momenta;
+mod recorded_masses;
 
 use self::equations::MOST_ROWS;
 pub use self::equations::{EquationTerms, LagrangianEquations};

@@ -9,6 +9,7 @@ use num_traits::Zero;
 use super::Phase;
 use super::model::{Model, ParameterOrigin};
 use super::recipe::{Draw, SamplerSpec};
+use super::system::System;
 use crate::formula::Value;
 use crate::graph::{Expr, literally, record};
 use crate::number::UnaryFunction;
@@ -48,9 +49,9 @@ pub fn combinations(recipes: &[Draw]) -> Option<Vec<Vec<Option<Rational>>>> {
 pub type ListedValues = Vec<(usize, Rational)>;
 
 impl Model {
-    /// Finds the choices of listed values for which the equations of motion have no value by their
-    /// form, as accelerations are 0/0 or 1/0 where a mass is 0. Fields that formulas give are left
-    /// out, as these formulas are required anyway.
+    /// Finds the choices of listed values for which the equations of motion have no solution by their form, as
+    /// accelerations are 0/0 or 1/0 where a mass is 0. Fields that formulas give are left out, as these formulas are
+    /// required anyway.
     pub fn find_undetermined(&self) -> Vec<ListedValues> {
         if self.system.is_given_by_formulas() {
             return Vec::new();
@@ -66,27 +67,35 @@ impl Model {
             true => None,
             false => combinations(&draws),
         };
-        let is_undetermined = |choice: &Vec<Option<Rational>>| {
-            let count = draws.len() + self.dimension();
-            let recorded = record(count, |inputs| {
-                let fixed = choice.iter().chain(std::iter::repeat(&None));
-                let at = |(input, value): (&Expr, &Option<Rational>)| {
-                    value.as_ref().map_or(*input, Expr::rational)
-                };
-                let inputs: Vec<Expr> = inputs.iter().zip(fixed).map(at).collect();
-                let (parameters, state) = self.make_parameters(&inputs);
-                Phase::new(self, &parameters, state).field().to_vec()
-            });
-            recorded.is_ok_and(|(graph, field)| {
-                field.into_iter().any(|rate| graph.is_nowhere_defined(rate))
-            })
-        };
         let choices = choices.filter(|all| all.len() > 1).unwrap_or_default();
-        let choices = choices.into_iter().filter(is_undetermined);
+        let choices = choices.into_iter().filter(|choice| self.has_no_motion(choice));
         // Scalars take one draw each, and those of lists are fixed by a choice in their order.
         choices
             .map(|choice| listed.iter().copied().zip(choice.into_iter().flatten()).collect())
             .collect()
+    }
+
+    /// Whether the equations of motion have no solution by their form for a choice of listed values: those of a
+    /// Lagrangian where the determinant of its masses and constraints is 0, whatever they are solved by.
+    fn has_no_motion(&self, choice: &[Option<Rational>]) -> bool {
+        let recorded = record(choice.len() + self.dimension(), |inputs| {
+            let fixed = choice.iter().chain(std::iter::repeat(&None));
+            let at = |(input, value): (&Expr, &Option<Rational>)| {
+                value.as_ref().map_or(*input, Expr::rational)
+            };
+            let inputs: Vec<Expr> = inputs.iter().zip(fixed).map(at).collect();
+            let (parameters, state) = self.make_parameters(&inputs);
+            let phase = Phase::new(self, &parameters, state);
+            match &self.system {
+                System::Lagrangian(own) => (own.determinants(&phase), Vec::new()),
+                _ => (Vec::new(), phase.field().to_vec()),
+            }
+        });
+        recorded.is_ok_and(|(graph, (determinants, field))| {
+            let is_zero = |own: Expr| graph.constant_value(own).is_some_and(Rational::is_zero);
+            determinants.into_iter().any(|own| is_zero(own) || graph.is_nowhere_defined(own))
+                || field.into_iter().any(|rate| graph.is_nowhere_defined(rate))
+        })
     }
 }
 

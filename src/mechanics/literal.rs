@@ -67,18 +67,12 @@ impl Phase<'_, Expr> {
         if has_moduli(written) {
             return self.motion_as_written();
         }
-        // Claims that do not contain the rates of a Lagrangian say nothing where there are none.
-        let kept = match system {
-            System::Lagrangian(_) => written.to_vec(),
-            _ => [written, self.field()].concat(),
+        // Claims that do not contain the rates say nothing where there are none, either.
+        let inverses = match system {
+            System::Lagrangian(_) => self.inverse_divisors(),
+            _ => inverses(system.divisors(&self.configuration)),
         };
-        let inverses = match (system, system.inertia_divisor(&self.configuration)) {
-            // The rate of γ shows what else a body divides by.
-            (_, Some(divisor)) => vec![literally(|| divisor.apply(UnaryFunction::Recip))],
-            (System::Lagrangian(_), None) => self.inverse_divisors(),
-            _ => Vec::new(),
-        };
-        left_out(&kept, &inverses)
+        left_out(written, &inverses)
     }
 
     /// Records the inverses of what the rates are divided by when they are solved for.
@@ -86,8 +80,7 @@ impl Phase<'_, Expr> {
         let divisors = divisors_of(|| {
             self.with(&[], &self.state()).field();
         });
-        let inverse = |divisor: Expr| literally(|| divisor.apply(UnaryFunction::Recip));
-        divisors.into_iter().map(inverse).collect()
+        inverses(divisors)
     }
 
     /// Records the inverses of what the equations of motion are divided by, where nothing is known of it: a claim that
@@ -123,4 +116,10 @@ impl Phase<'_, Expr> {
         }));
         found
     }
+}
+
+/// Records inverses literally: they have no value where a divisor is 0.
+fn inverses(divisors: Vec<Expr>) -> Vec<Expr> {
+    let inverse = |divisor: Expr| literally(|| divisor.apply(UnaryFunction::Recip));
+    divisors.into_iter().map(inverse).collect()
 }

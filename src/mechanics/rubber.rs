@@ -99,9 +99,10 @@ impl Dynamics for Rubber {
         unit.dot(&unit)
     }
 
-    fn inertia_divisor<T: Scalar>(&self, at: &Configuration<'_, T>) -> Option<T> {
+    /// Returns (γ, adj Ĩ γ) and D_T.
+    fn divisors<T: Scalar>(&self, at: &Configuration<'_, T>) -> Vec<T> {
         let (r, _) = self.0.shape.contact(at);
-        Some(self.inertia_along_normal(at, &r))
+        vec![self.inertia_along_normal(at, &r), self.0.gamma_determinant(at)]
     }
 
     fn reference_density<T: Scalar>(&self, at: &Configuration<'_, T>) -> Option<T> {

@@ -188,9 +188,9 @@ impl Dynamics for Spinning {
         T::one() + chi.dot(&chi)
     }
 
-    /// Returns D_T det Ĩ.
-    fn inertia_divisor<T: Scalar>(&self, at: &Configuration<'_, T>) -> Option<T> {
-        Some(self.pose(at).determinant)
+    /// Returns det Ĩ and D_T.
+    fn divisors<T: Scalar>(&self, at: &Configuration<'_, T>) -> Vec<T> {
+        vec![self.pose(at).determinant, self.0.gamma_determinant(at)]
     }
 
     fn reference_density<T: Scalar>(&self, at: &Configuration<'_, T>) -> Option<T> {

@@ -212,10 +212,9 @@ impl System {
         for_each_kind!(self, one => one.reference_density(at))
     }
 
-    /// Computes the function of inertia by which the accelerations of a body are divided, det Ĩ or (γ, adj Ĩ γ);
-    /// `None` for other systems.
-    pub fn inertia_divisor<T: Scalar>(&self, at: &Configuration<'_, T>) -> Option<T> {
-        for_each_kind!(self, one => one.inertia_divisor(at))
+    /// Computes what the rates of a body or a ball are divided by; nothing for other systems.
+    pub fn divisors<T: Scalar>(&self, at: &Configuration<'_, T>) -> Vec<T> {
+        for_each_kind!(self, one => one.divisors(at))
     }
 
     /// Computes (γ, rot r), which vanishes on |γ| = 1 exactly when ∂r/∂γ is symmetric across γ

@@ -14,7 +14,7 @@ use crate::claim::{ClaimKind, Lyapunov};
 use crate::formula::{Formula, Type, exponent_text};
 use crate::graph::{Expr, Graph, record};
 use crate::mechanics::calculus::DualPoint;
-use crate::mechanics::{ParameterOrigin, Phase, SamplerSpec};
+use crate::mechanics::{ParameterOrigin, Phase, SamplerSpec, System};
 use crate::number::ball::Ball;
 use crate::number::rational::Rational;
 use crate::proof::{
@@ -132,6 +132,14 @@ fn rates(
         let slopes: Vec<Expr> = factors.iter().map(|[slope, _]| *slope).collect();
         forms.extend(volterra_sum(&graph, growth, &slopes, free, &names));
     }
+    let power = power_of_forces(case);
+    if let Some(power) = &power {
+        let (graph, power) = record(free + model.dimension(), |inputs| {
+            let (parameters, state) = inputs.split_at(free);
+            Phase::new(model, parameters, state).scalar(power)
+        })?;
+        forms.extend(simpler_forms(&graph, power, free, &names, &written_as_squares));
+    }
     let is_asked = |form: &SimplerForm| may_divide || !form.divides;
     all.extend(forms.into_iter().filter(is_asked).map(|form| form.text));
     let squares = squares(case, function);
@@ -155,8 +163,20 @@ fn rates(
     all.retain(|text| seen.insert(text.clone()));
     all.retain(|text| stage == Stage::All || text.len() <= SHORT);
     all.sort_by_key(String::len);
+    all.splice(0..0, power.map(|power| power.text().to_string()));
     all.truncate(MOST_RATES);
     Ok(all)
+}
+
+/// Writes Σ Qₖ wₖ, the rate of the energy of a Lagrangian with generalised forces Q, where constraints are homogeneous
+/// and nothing depends on time.
+fn power_of_forces(case: &Case) -> Option<Formula> {
+    let System::Lagrangian(own) = &case.model.system else { return None };
+    let term = |(component, force): &(usize, Formula)| {
+        format!("({})*{}", force.text(), case.model.component_name(*component))
+    };
+    let terms: Vec<String> = own.forces.iter().map(term).collect();
+    case.formula(&terms.join(" + ")).ok()
 }
 
 /// Names the rates of the components of the state.

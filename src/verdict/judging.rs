@@ -209,7 +209,7 @@ impl Judging<'_> {
         self.check_slopes(sampler)?;
         sampler.check_coverage(self.case)?;
         let mut warnings = physics::warnings(&physical);
-        warnings.extend(self.states_without_motion(&states)?);
+        warnings.extend(self.states_without_motion(sampler, &states)?);
         warnings.extend(self.check_quadratures()?);
         if sampler.is_numerical() {
             warnings.push(
@@ -228,6 +228,7 @@ impl Judging<'_> {
     /// error if masses are 0 at all of them.
     fn states_without_motion(
         &self,
+        sampler: &Sampler,
         states: &[Balls<TAPE_LANES>],
     ) -> Result<Option<String>, JudgeError> {
         let listed = self.case.model.undetermined.len();
@@ -246,7 +247,11 @@ impl Judging<'_> {
         }
         let values = self.run(&written).at(&Ball::<TAPE_LANES>, states);
         let is_state = |lane: &usize| states.iter().all(|block| block.is_defined(*lane));
-        let moves = |lane: &usize| (0..written.len()).all(|k| values.output(k).is_defined(*lane));
+        // Numbers beyond the range of f64, as in tanh 1000v by exponentials, are values nevertheless.
+        let moves = |lane: &usize| {
+            (0..written.len()).all(|k| values.output(k).is_defined(*lane))
+                || self.are_defined_with_more_digits(&written, sampler, *lane as u64)
+        };
         let all = (0..TAPE_LANES).filter(is_state).count();
         let count = (0..TAPE_LANES).filter(is_state).filter(|lane| !moves(lane)).count();
         if count > 0 && count == all && !hidden.is_empty() {
@@ -268,9 +273,6 @@ impl Judging<'_> {
     /// Whether the field is defined at some state, in double-double.
     fn has_field_with_more_digits(&self, sampler: &Sampler) -> bool {
         let field = &self.common.field;
-        let is_defined = |values: &[&Number]| {
-            values.iter().all(|value| matches!(value, Number::Exact(_) | Number::Ball(_)))
-        };
         if sampler.is_numerical() {
             return false;
         }
@@ -282,14 +284,21 @@ impl Judging<'_> {
             return true;
         }
         // Only exact arithmetic knows that √0 exists.
+        (0..PRECISE_STATES).any(|index| self.are_defined_with_more_digits(field, sampler, index))
+    }
+
+    /// Whether values are defined at a state in exact numbers and balls of many digits.
+    fn are_defined_with_more_digits(&self, values: &[Expr], sampler: &Sampler, index: u64) -> bool {
+        if sampler.is_numerical() {
+            return false;
+        }
+        let is_defined = |values: &[&Number]| {
+            values.iter().all(|value| matches!(value, Number::Exact(_) | Number::Ball(_)))
+        };
         let domain = Mixed::new(LADDER_BITS[0]);
-        let run = self.run(field);
-        (0..PRECISE_STATES).any(|index| {
-            let states = sampler.states(&domain, 1, index);
-            let values = run.at(&domain, &states);
-            is_defined(&states.iter().collect::<Vec<_>>())
-                && is_defined(&values.range(0..field.len()))
-        })
+        let states = sampler.states(&domain, 1, index);
+        let found = self.run(values).at(&domain, &states);
+        is_defined(&states.iter().collect::<Vec<_>>()) && is_defined(&found.range(0..values.len()))
     }
 
     /// Checks that no level equation of the user follows from those before it.

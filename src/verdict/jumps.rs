@@ -26,6 +26,8 @@ const EARLY: usize = 3;
 const LATE: usize = 6;
 /// Largest change of each side between the two, in units of the jump.
 const MOST_DRIFT: f64 = 0.1;
+/// Largest change of a coordinate between the sides of a jump, in units of its values on the line.
+const MOST_MOVED: f64 = 1e-3;
 /// Smallest jump in units of the function's values on the line.
 const LEAST_JUMP: f64 = 1e-9;
 /// Bits with which a jump is computed again.
@@ -47,7 +49,10 @@ impl Judging<'_> {
             let groups = groups.concat();
             // What jumps for other values alone may be a constant for these.
             let found = match may_jump(&graph, &groups) {
-                Some(_) => self.jump_of(sampler, &graph, &groups, (digits, lines)),
+                Some(_) => {
+                    let sought = Sought { digits, lines, of_level: false, fixed: &fixed };
+                    self.jump_of(sampler, &graph, &groups, &sought)
+                }
                 None => None,
             };
             if found.is_some() {
@@ -57,35 +62,32 @@ impl Judging<'_> {
         Ok(None)
     }
 
-    /// Finds a state near which a value jumps that is a function of the draws, on so many lines.
+    /// Finds a state near which a value jumps that is a function of the draws.
     fn jump_of(
         &self,
         sampler: &Sampler,
         graph: &Graph,
         values: &[Expr],
-        (digits, lines): (Digits, u64),
+        sought: &Sought<'_>,
     ) -> Option<String> {
         let tape = Tape::new(graph, values);
-        let mut along = match digits {
+        let mut along = match sought.digits {
             Digits::Single => Along::Single(Evaluator::new(&tape, Float::<POINTS>)),
             Digits::Double => Along::Double(Evaluator::new(&tape, DoubleDoubles)),
         };
         let mut precise = Evaluator::new(&tape, ArbBall::new(PRECISION));
-        (0..lines).find_map(|line| {
+        (0..sought.lines).find_map(|line| {
             let ends = [2 * line, 2 * line + 1].map(|index| sampler.nearest_draws(index));
-            let line = Line::between(sampler, ends, graph.inputs());
+            let line = Line::between(sampler, ends, (sought.fixed, graph.inputs()));
             let jump = line.jump(&mut along).filter(|jump| line.is_real(&mut precise, jump))?;
-            let [low, high] = jump.sides;
-            // Between the sides a coordinate may have no value.
-            let places = std::array::from_fn(|k| [0.5 * (low + high), low, high][k.min(2)]);
             let model = &self.case.model;
             let state = &sampler.made()[model.free_components()..];
             let tape = Tape::new(sampler.graph(), state);
-            let mut state = Along::Single(Evaluator::new(&tape, Float::<POINTS>));
-            let state = line.values(&mut state, places);
-            let at = (0..POINTS).find(|k| state.iter().all(|x| x[*k].is_finite())).unwrap_or(0);
-            let state = state.iter().map(|x| x[at]).collect::<Vec<_>>();
-            Some(briefly(model, &state))
+            let mut states = Along::Single(Evaluator::new(&tape, Float::<POINTS>));
+            let near = line.state_near(&mut states, &jump)?;
+            // At a pole of a chart states go from one end of the level to another, and no motion does.
+            let passes = sought.of_level || line.is_continuous(&mut states, &jump);
+            passes.then(|| briefly(model, &near))
         })
     }
 
@@ -94,11 +96,24 @@ impl Judging<'_> {
         let digits =
             may_jump(self.graph, &self.common.level).filter(|_| !sampler.is_numerical())?;
         let state = &sampler.made()[self.case.model.free_components()..];
-        let place = self.jump_of(sampler, sampler.graph(), state, (digits, digits.lines()));
+        let any = vec![None; sampler.recipes().len()];
+        let sought = Sought { digits, lines: digits.lines(), of_level: true, fixed: &any };
+        let place = self.jump_of(sampler, sampler.graph(), state, &sought);
         place.map(|place| {
             format!("near {place} the level jumps: motions across the jump are not covered")
         })
     }
+}
+
+/// Where jumps are sought.
+struct Sought<'a> {
+    digits: Digits,
+    /// Number of lines.
+    lines: u64,
+    /// Whether it is the states that may jump, as functions of the draws.
+    of_level: bool,
+    /// Listed values, by draw.
+    fixed: &'a [Option<Rational>],
 }
 
 /// Numbers that follow a line.
@@ -164,8 +179,15 @@ struct Line {
 }
 
 impl Line {
-    fn between(sampler: &Sampler, ends: [Vec<(f64, bool)>; 2], inputs: usize) -> Self {
+    fn between(
+        sampler: &Sampler,
+        ends: [Vec<(f64, bool)>; 2],
+        (fixed, inputs): (&[Option<Rational>], usize),
+    ) -> Self {
         let [mut from, mut to] = ends.map(|end| end.iter().map(|draw| draw.0).collect::<Vec<_>>());
+        for (draw, value) in from.iter_mut().zip(fixed) {
+            *draw = value.as_ref().map_or(*draw, |value| value.to_f64().0);
+        }
         for (index, recipe) in sampler.recipes().iter().enumerate() {
             let is_shared =
                 index < sampler.parameter_draws() || matches!(recipe, Draw::Sign | Draw::OneOf(_));
@@ -201,6 +223,26 @@ impl Line {
             return false;
         };
         (a - b).abs() - error_a - error_b >= 0.5 * jump.size
+    }
+
+    /// State at a jump, or on one side of it where a coordinate has no value between the sides.
+    fn state_near(&self, states: &mut Along<'_>, jump: &Jump) -> Option<Vec<f64>> {
+        let [low, high] = jump.sides;
+        let places = std::array::from_fn(|k| [0.5 * (low + high), low, high][k.min(2)]);
+        let near = self.values(states, places);
+        let at = (0..POINTS).find(|k| near.iter().all(|x| x[*k].is_finite()))?;
+        Some(near.iter().map(|x| x[at]).collect())
+    }
+
+    /// Whether states exist on both sides of a jump and hardly differ.
+    fn is_continuous(&self, states: &mut Along<'_>, jump: &Jump) -> bool {
+        let whole = self.values(states, divided(0.0, 1.0));
+        let sides = self.values(states, std::array::from_fn(|k| jump.sides[k.min(1)]));
+        sides.iter().zip(&whole).all(|(sides, whole)| {
+            let finite = whole.iter().filter(|value| value.is_finite());
+            let size = finite.fold(0.0f64, |most, value| most.max(value.abs()));
+            (sides[0] - sides[1]).abs() <= MOST_MOVED * size
+        })
     }
 
     /// Finds an output that has different limits from both sides of a place.

@@ -10,6 +10,9 @@ use crate::number::rational::Rational;
 /// Largest number of squares that are tried.
 const MOST_SQUARES: usize = 32;
 
+/// Largest number of products of a square and a factor of which pairs are tried.
+const MOST_PRODUCTS: usize = 400;
+
 /// Source of a square.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum SquareKind {
@@ -81,8 +84,33 @@ pub(super) fn numbers(case: &Case) -> Vec<Formula> {
     scalars.filter_map(|own| case.formula(&own.name).ok()).collect()
 }
 
-/// Lists sums of squares, with numbers as negative factors, that the rate is equal to, up to a
-/// parameter as a further factor: of one square or two, of all rates, and of all slopes.
+/// A factor of squares: 1, a parameter or its inverse.
+struct Factor {
+    text: String,
+    values: Vec<f64>,
+}
+
+/// Lists the factors of squares, with their values by row.
+fn factors(
+    table: &[Vec<f64>],
+    squares: usize,
+    numbers: &[Formula],
+    may_divide: bool,
+) -> Vec<Factor> {
+    let mut factors = vec![Factor { text: String::new(), values: vec![1.0; table.len()] }];
+    for (p, number) in numbers.iter().enumerate() {
+        let values: Vec<f64> = table.iter().map(|row| row[squares + 1 + p]).collect();
+        let inverses = values.iter().map(|value| 1.0 / value).collect();
+        factors.push(Factor { text: format!("{}*", number.text()), values });
+        if may_divide {
+            factors.push(Factor { text: format!("1/{}*", number.text()), values: inverses });
+        }
+    }
+    factors
+}
+
+/// Lists sums of squares that the rate is equal to, each with a negative number, and a parameter or its inverse, as
+/// factors: of one square or two, and with one parameter of all rates, and of all slopes.
 pub(super) fn sums(
     table: &[Vec<f64>],
     squares: &[Square],
@@ -91,41 +119,49 @@ pub(super) fn sums(
 ) -> Vec<String> {
     let of_kind =
         |kind: SquareKind| (0..squares.len()).filter(|k| squares[*k].kind == kind).collect();
-    let single = (0..squares.len()).map(|k| vec![k]);
-    let pairs = (0..squares.len()).flat_map(|i| (0..i).map(move |j| vec![j, i]));
-    let whole = [SquareKind::Rate, SquareKind::Slope, SquareKind::Relative].map(of_kind);
-    let choices: Vec<Vec<usize>> = single.chain(whole).chain(pairs).collect();
-    let mut factors: Vec<(String, Vec<f64>)> = vec![(String::new(), vec![1.0; table.len()])];
-    for (p, number) in numbers.iter().enumerate() {
-        let column = squares.len() + 1 + p;
-        let name = number.text();
-        factors.push((format!("{name}*"), table.iter().map(|row| row[column]).collect()));
-        if may_divide {
-            let inverses = table.iter().map(|row| 1.0 / row[column]).collect();
-            factors.push((format!("1/{name}*"), inverses));
-        }
-    }
-    let mut all = Vec::new();
-    for (factor, values) in &factors {
-        let target: Vec<f64> =
-            table.iter().zip(values).map(|(row, value)| row[0] / value).collect();
-        let written = |chosen: &Vec<usize>| {
-            let multiples = fitted(table, &target, chosen)?;
-            let term = |(k, multiple): (&usize, &f64)| match multiple.abs() < 1e-9 {
-                true => Some(String::new()),
-                false => {
-                    let multiple = near(*multiple).filter(|multiple| multiple.is_negative())?;
-                    Some(format!("({multiple})*{factor}{}", squares[*k].formula.text()))
-                }
-            };
-            let terms: Vec<String> =
-                chosen.iter().zip(&multiples).map(term).collect::<Option<_>>()?;
-            let terms: Vec<String> = terms.into_iter().filter(|term| !term.is_empty()).collect();
-            (terms.len() == chosen.len()).then(|| terms.join(" + "))
+    let whole: Vec<Vec<usize>> =
+        [SquareKind::Rate, SquareKind::Slope, SquareKind::Relative].map(of_kind).to_vec();
+    let factors = factors(table, squares.len(), numbers, may_divide);
+    let target: Vec<f64> = table.iter().map(|row| row[0]).collect();
+    let column = |factor: usize, square: usize| -> Vec<f64> {
+        let rows = table.iter().zip(&factors[factor].values);
+        rows.map(|(row, value)| row[square + 1] * value).collect()
+    };
+    let products: Vec<(usize, usize)> = (0..factors.len())
+        .flat_map(|factor| (0..squares.len()).map(move |square| (factor, square)))
+        .take(MOST_PRODUCTS)
+        .collect();
+    let columns: Vec<Vec<f64>> =
+        products.iter().map(|(factor, square)| column(*factor, *square)).collect();
+    let written = |chosen: &[(usize, usize)], columns: &[&Vec<f64>]| {
+        let multiples = fitted(columns, &target)?;
+        let term = |((factor, square), multiple): (&(usize, usize), &f64)| {
+            let multiple = near(*multiple).filter(|multiple| multiple.is_negative())?;
+            let (factor, square) = (&factors[*factor].text, squares[*square].formula.text());
+            Some(format!("({multiple})*{factor}{square}"))
         };
-        all.extend(choices.iter().filter_map(written).take(MOST_RATES));
-    }
-    all
+        let terms: Option<Vec<String>> = chosen.iter().zip(&multiples).map(term).collect();
+        terms.map(|terms| terms.join(" + "))
+    };
+    let single = (0..products.len()).filter_map(|k| written(&[products[k]], &[&columns[k]]));
+    let all_of_a_kind = (0..factors.len()).flat_map(|factor| {
+        let with_factor = move |of: &Vec<usize>| of.iter().map(|own| (factor, *own)).collect();
+        whole.iter().map(with_factor).collect::<Vec<Vec<(usize, usize)>>>()
+    });
+    let all_of_a_kind = all_of_a_kind.filter_map(|chosen| {
+        let columns: Vec<Vec<f64>> =
+            chosen.iter().map(|(factor, square)| column(*factor, *square)).collect();
+        written(&chosen, &columns.iter().collect::<Vec<_>>())
+    });
+    let pairs = (0..products.len()).flat_map(|i| (0..i).map(move |j| (j, i)));
+    let pairs = pairs.filter(|(j, i)| products[*j].1 != products[*i].1);
+    let pairs = pairs
+        .filter_map(|(j, i)| written(&[products[j], products[i]], &[&columns[j], &columns[i]]));
+    single
+        .take(MOST_RATES)
+        .chain(all_of_a_kind.take(MOST_RATES))
+        .chain(pairs.take(MOST_RATES))
+        .collect()
 }
 
 /// Finds a fraction with a small denominator next to a number.
@@ -138,16 +174,16 @@ fn near(number: f64) -> Option<Rational> {
     })
 }
 
-/// Finds factors with which a column of values is a sum of some columns of squares, at all rows.
-fn fitted(table: &[Vec<f64>], target: &[f64], chosen: &[usize]) -> Option<Vec<f64>> {
-    let count = chosen.len();
-    if count == 0 || table.len() < 2 * count {
+/// Finds factors with which a column of values is a sum of some others, at all rows.
+fn fitted(columns: &[&Vec<f64>], target: &[f64]) -> Option<Vec<f64>> {
+    let count = columns.len();
+    if count == 0 || target.len() < 2 * count {
         return None;
     }
-    let equation = |(row, value): (&Vec<f64>, &f64)| -> Vec<f64> {
-        chosen.iter().map(|k| row[k + 1]).chain([*value]).collect()
+    let equation = |row: usize| -> Vec<f64> {
+        columns.iter().map(|column| column[row]).chain([target[row]]).collect()
     };
-    let mut rows: Vec<Vec<f64>> = table.iter().zip(target).take(count).map(equation).collect();
+    let mut rows: Vec<Vec<f64>> = (0..count).map(equation).collect();
     for column in 0..count {
         let largest =
             |a: &usize, b: &usize| rows[*a][column].abs().total_cmp(&rows[*b][column].abs());
@@ -163,10 +199,11 @@ fn fitted(table: &[Vec<f64>], target: &[f64], chosen: &[usize]) -> Option<Vec<f6
         }
     }
     let factors: Vec<f64> = (0..count).map(|k| rows[k][count] / rows[k][k]).collect();
-    let fits = |(row, value): (&Vec<f64>, &f64)| {
-        let terms = chosen.iter().zip(&factors).map(|(k, factor)| factor * row[k + 1]);
+    let fits = |(row, value): (usize, &f64)| {
+        let terms = columns.iter().zip(&factors).map(|(column, factor)| factor * column[row]);
         let size: f64 = terms.clone().map(f64::abs).sum::<f64>() + value.abs();
         (terms.sum::<f64>() - value).abs() <= 1e-9 * size
     };
-    table.iter().zip(target).all(fits).then_some(factors)
+    // The last rows are no part of the equations, so that most choices end at once.
+    target.iter().enumerate().rev().all(fits).then_some(factors)
 }

@@ -11,6 +11,7 @@ mod common;
 mod definite_sums;
 mod derivatives;
 mod dissipation;
+mod divisors;
 mod documents;
 mod domains;
 mod doubts;

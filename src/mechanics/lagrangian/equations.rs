@@ -44,7 +44,7 @@ impl<T: Scalar> LagrangianEquations<T> {
     }
 
     /// Returns the masses, bordered by the slopes: [[M, aᵀ], [a, 0]] (w', −μ) = (drive, −carried).
-    fn bordered(&self) -> Vec<Vec<T>> {
+    pub(super) fn bordered(&self) -> Vec<Vec<T>> {
         let EquationTerms { mass, slopes, .. } = &self.terms;
         let upper = mass.iter().enumerate().map(|(i, row)| {
             row.iter().copied().chain(slopes.iter().map(|slope| slope[i])).collect()

@@ -6,26 +6,16 @@
 //! [[0, 1], [1, 0]].
 
 use super::Lagrangian;
-use crate::graph::{Evaluator, Expr, Fault, Graph, Step, Tape, divisors_of, record};
+use super::recorded_masses::RecordedMasses;
+use crate::graph::{Expr, Fault, Step, divisors_of, record};
 use crate::mechanics::dynamics::Dynamics;
-use crate::mechanics::elimination::{is_indefinite, solve_by_minors, solve_positive};
-use crate::mechanics::{Chart, Configuration, Draw, DrawSource, Model, Phase, combinations};
-use crate::number::ball::{Ball, Balls};
-use crate::number::float::Float;
-use crate::number::rational::Rational;
-use crate::number::{BinaryOperation, UnaryFunction};
-use crate::proof::{Extent, InputDistribution, Prover, is_nowhere_zero};
+use crate::mechanics::elimination::{block_determinants, blocks, solve_by_minors, solve_positive};
+use crate::mechanics::{Chart, Configuration, Draw, LevelEquation, LevelFunction, Model, Phase};
 use crate::scalar::Scalar;
 
-/// Number of states at which the signs are looked at.
-const STATES: usize = 16;
-/// Largest number of velocities of which the signs are looked at.
-const MOST_VELOCITIES: usize = 32;
 /// Largest number of velocities and constraints that are solved for by minors because nothing is known of a divisor:
 /// more lose digits.
 const MOST_BY_MINORS: usize = 6;
-/// Seed of the proofs that leading minors are not 0.
-const SEED: u64 = 1;
 
 /// Method by which the equations of motion are solved for the accelerations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -45,18 +35,11 @@ impl AccelerationSolver {
     const MINORS: Self = Self { by_minors: true, ..Self::ELIMINATION };
 }
 
-/// Masses of a Lagrangian as functions of the symbols of the case, or of the draws of a place, with all that elimination
-/// divides by.
-struct RecordedMasses {
-    graph: Graph,
-    masses: Vec<Expr>,
-    divisors: Vec<Expr>,
-}
-
 impl Lagrangian {
     /// Chooses how the equations of motion are solved. Minors are taken where the matrix has eigenvalues of both signs
     /// at some of the first drawn states, with one choice of listed values or another; and for few velocities where
-    /// what elimination divides by is not known to be 0 on no open set of states, on the level and in all of space.
+    /// what elimination divides by is not known to be 0 on no open set of states, on the level and in all of space, or is
+    /// 0 by its form for a listed value.
     /// Many velocities are then eliminated with M + aᵀa in the place of M, as is the mass of a coordinate that the
     /// constraints alone move.
     pub fn acceleration_solver(
@@ -74,8 +57,19 @@ impl Lagrangian {
         if !level.is_empty() {
             places.push(vec![false; level.len()]);
         }
+        let is_solved = matches!(chart, Chart::Equations);
         let is_regular = |own: &RecordedMasses| {
-            places.iter().all(|kept| own.are_regular_at((model, chart, kept), free))
+            let is_regular_at = |kept: &Vec<bool>| {
+                let at = (model, chart, &kept[..]);
+                match is_solved && kept.contains(&true) {
+                    true => {
+                        self.lies_over_positions(own, model, &velocities)
+                            || own.are_nowhere_zero(at, free)
+                    }
+                    false => own.are_regular_at(at, free),
+                }
+            };
+            places.iter().rev().all(is_regular_at)
         };
         let own = self.symbolic_masses(model, &velocities);
         let is_known = own.as_ref().is_ok_and(is_regular);
@@ -84,7 +78,15 @@ impl Lagrangian {
             let count = velocities.len();
             own.as_ref().is_ok_and(|own| own.are_indefinite((model, chart, &level), free, count))
         };
-        if are_few && !is_known || is_indefinite() {
+        let needs_minors = || {
+            let vanish = || {
+                own.as_ref().is_ok_and(|own| {
+                    own.largest_block <= MOST_BY_MINORS && own.vanish_for_some_choice(model, free)
+                })
+            };
+            are_few || vanish() && self.constraints.is_empty()
+        };
+        if !is_known && needs_minors() || is_indefinite() {
             return AccelerationSolver::MINORS;
         }
         if is_known || self.constraints.is_empty() {
@@ -105,15 +107,53 @@ impl Lagrangian {
         velocities: &[usize],
     ) -> Result<RecordedMasses, Fault> {
         let free = model.free_components();
-        let (graph, (masses, divisors)) = record(free + model.dimension(), |inputs| {
-            let (parameters, state) = inputs.split_at(free);
-            let phase = Phase::new(model, parameters, state);
-            let divisors = divisors_of(|| {
-                self.field(&phase);
-            });
-            (self.masses(&phase.configuration, velocities).concat(), divisors)
-        })?;
-        Ok(RecordedMasses { graph, masses, divisors })
+        let (graph, (masses, divisors, level, largest_block)) =
+            record(free + model.dimension(), |inputs| {
+                let (parameters, state) = inputs.split_at(free);
+                let phase = Phase::new(model, parameters, state);
+                let divisors = divisors_of(|| {
+                    self.field(&phase);
+                });
+                let level = model.level.iter().map(|own| phase.level_function(&own.function));
+                let level = level.flat_map(|own| [own, -own]).collect();
+                let masses = self.masses(&phase.configuration, velocities);
+                let largest = blocks(&masses).iter().map(Vec::len).max().unwrap_or_default();
+                (masses.concat(), divisors, level, largest)
+            })?;
+        Ok(RecordedMasses { graph, masses, divisors, level, largest_block })
+    }
+
+    /// Whether what holds on an open set of the level holds on one of positions: the level has no other equations than
+    /// the constraints on velocities, and the divisors contain no velocities. Where the equations of motion have one
+    /// solution, the slopes of the constraints by the velocities are independent, so that the level is projected to the
+    /// positions by a submersion.
+    fn lies_over_positions(
+        &self,
+        own: &RecordedMasses,
+        model: &Model,
+        velocities: &[usize],
+    ) -> bool {
+        let is_constraint = |equation: &LevelEquation| match &equation.function {
+            LevelFunction::Formula(function) => {
+                self.constraints.iter().any(|constraint| constraint.text() == function.text())
+            }
+            _ => false,
+        };
+        let free = model.free_components();
+        let reached = own.graph.reached(own.divisors.iter().copied());
+        let mut steps = own.graph.steps().zip(reached);
+        let is_velocity =
+            |input: usize| input.checked_sub(free).is_some_and(|k| velocities.contains(&k));
+        model.level.iter().all(is_constraint)
+            && !steps.any(|(step, reached)| match step {
+                Step::Input(input) => reached && is_velocity(input),
+                _ => false,
+            })
+    }
+
+    /// Computes D = det [[M, aᵀ], [a, 0]] by factors: the equations of motion have one solution where none is 0.
+    pub fn determinants<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
+        block_determinants(&self.equations(phase).bordered())
     }
 
     fn masses(&self, at: &Configuration<'_, Expr>, velocities: &[usize]) -> Vec<Vec<Expr>> {
@@ -144,191 +184,4 @@ impl Lagrangian {
 /// Solves A x = b by elimination.
 pub(super) fn eliminated<T: Scalar>(matrix: &[Vec<T>], sides: Vec<Vec<T>>) -> Vec<Vec<T>> {
     sides.into_iter().map(|side| solve_positive(matrix.to_vec(), side)).collect()
-}
-
-impl RecordedMasses {
-    /// Whether all divisors are known to be 0 on no open set of states of a place, for each choice of listed values.
-    fn are_regular_at(&self, place: (&Model, &Chart, &[bool]), free: &[Draw]) -> bool {
-        let (model, chart, kept) = place;
-        let draws = [model.parameter_draws(), chart.draws(free, kept)].concat();
-        let Some(choices) = combinations(&draws) else { return false };
-        choices.iter().all(|choice| {
-            let drawn = self.drawn(place, choice);
-            drawn.and_then(|drawn| drawn.has_divisors(&draws)).unwrap_or(false)
-        })
-    }
-
-    /// Whether f64 shows masses of both signs at one of the first states of a place, for this number of velocities.
-    fn are_indefinite(
-        &self,
-        place: (&Model, &Chart, &[bool]),
-        free: &[Draw],
-        count: usize,
-    ) -> bool {
-        if count > MOST_VELOCITIES {
-            return false;
-        }
-        let (model, chart, kept) = place;
-        let draws = [model.parameter_draws(), chart.draws(free, kept)].concat();
-        let any = vec![None; draws.len()];
-        let Ok(drawn) = self.drawn(place, &any) else { return false };
-        let choices = combinations(&draws).unwrap_or_else(|| vec![any]);
-        drawn.is_indefinite_somewhere(count, &draws, &choices)
-    }
-
-    /// Writes them as functions of the draws of a place, with a choice of listed values inserted; values of arbitrary
-    /// functions are further inputs.
-    fn drawn(
-        &self,
-        (model, chart, kept): (&Model, &Chart, &[bool]),
-        choice: &[Option<Rational>],
-    ) -> Result<Self, Fault> {
-        let all = [&self.masses[..], &self.divisors].concat();
-        let reached = self.graph.reached(all.iter().copied());
-        let symbols = model.free_components() + model.dimension();
-        let further = self.graph.inputs() - symbols;
-        let (graph, made) = record(choice.len() + further, |inputs| {
-            let (draws, further) = inputs.split_at(choice.len());
-            let fixed = draws.iter().zip(choice);
-            let draws: Vec<Expr> =
-                fixed.map(|(own, value)| value.as_ref().map_or(*own, Expr::rational)).collect();
-            let (parameters, state) = model.make_parameters(&draws);
-            let state = chart.point(model, kept, &parameters, state);
-            let inputs = [&parameters[..], &state, further].concat();
-            let values = self.graph.repeated(&reached, &inputs);
-            all.iter().map(|own| values[self.graph.place(*own)]).collect::<Option<Vec<Expr>>>()
-        })?;
-        let mut masses = made.ok_or(Fault::ForeignValue)?;
-        let divisors = masses.split_off(self.masses.len());
-        Ok(Self { graph, masses, divisors })
-    }
-
-    /// Whether each divisor is known to be 0 on no open set of states: by a ball at one of them, where it is one
-    /// analytic function, or by a proof on each cell of signs of its moduli and roots.
-    fn has_divisors(&self, draws: &[Draw]) -> Result<bool, Fault> {
-        let extents: Vec<Extent> = draws.iter().map(Draw::extent).collect();
-        if self.is_analytic(draws, &extents) && self.are_seen(draws) {
-            return Ok(true);
-        }
-        let source = |draw: &Draw| match draw {
-            Draw::Sign => InputDistribution::Sign,
-            _ => InputDistribution::Uniform,
-        };
-        let sources: Vec<InputDistribution> = draws.iter().map(source).collect();
-        let prover = Prover { sources: &sources, extents: &extents, seed: SEED };
-        for divisor in &self.divisors {
-            let is_known = match self.graph.constant_value(*divisor) {
-                Some(value) => !value.is_zero(),
-                None => prover.is_nonzero_on_all_cells(&self.graph, *divisor)?,
-            };
-            if !is_known {
-                return Ok(false);
-            }
-        }
-        Ok(true)
-    }
-
-    /// Whether balls exclude 0 from each divisor at one of the first states.
-    fn are_seen(&self, draws: &[Draw]) -> bool {
-        let tape = Tape::new(&self.graph, &self.divisors);
-        let mut evaluator = Evaluator::new(&tape, Ball::<STATES>);
-        let numbers = drawn_numbers(draws, self.graph.inputs());
-        let exact = |x: &[f64; STATES]| Balls::new(*x, [0.0; STATES]);
-        evaluator.run(&numbers.iter().map(exact).collect::<Vec<_>>());
-        let is_seen = |value: &Balls<STATES>| {
-            (0..STATES).any(|lane| value.is_defined(lane) && value.excludes_zero(lane))
-        };
-        evaluator.outputs().all(is_seen)
-    }
-
-    /// Whether each divisor is one analytic function on the box of the draws, but for poles.
-    ///
-    /// What is under a root, a modulus or a logarithm has no pole and no zero on the box, and what is in an arctangent
-    /// no pole. These are then analytic around the box in complex space, on a connected set, and the rest is analytic
-    /// there without the zeros of divisors, which do not divide it: a function that is not 0 at one state is 0 on no
-    /// open set. (Not so: e^(½ ln k²) + k, which is 0 for k < 0.)
-    fn is_analytic(&self, draws: &[Draw], extents: &[Extent]) -> bool {
-        use UnaryFunction::{Abs, Atan, Ln, Recip, Sqrt};
-        let graph = &self.graph;
-        let reached = graph.reached(self.divisors.iter().copied());
-        let is_single_valued = |(place, step): (usize, Step<'_>)| match step {
-            Step::Input(input) => !reached[place] || !matches!(draws.get(input), Some(Draw::Sign)),
-            Step::Unary(Abs | Sqrt | Ln | Atan, _) | Step::Binary(BinaryOperation::Pow, ..) => {
-                !reached[place]
-            }
-            Step::Power(_, exponent) => !reached[place] || exponent.to_integer().is_some(),
-            _ => true,
-        };
-        if graph.steps().enumerate().all(is_single_valued) {
-            return true;
-        }
-        let is_nowhere_zero =
-            |place: usize| is_nowhere_zero(graph, extents, &[], &[graph.at(place)]);
-        let mut has_no_pole = vec![true; reached.len()];
-        for (place, step) in graph.steps().enumerate().filter(|(place, _)| reached[*place]) {
-            let of_arguments = step.arguments().all(|argument| has_no_pole[argument]);
-            let (is_analytic, has_value) = match step {
-                Step::Input(input) => (!matches!(draws.get(input), Some(Draw::Sign)), true),
-                Step::Unary(Recip, a) => (true, of_arguments && is_nowhere_zero(a)),
-                Step::Unary(Abs | Sqrt | Ln, a) | Step::Binary(BinaryOperation::Pow, a, _) => {
-                    (of_arguments && is_nowhere_zero(a), true)
-                }
-                Step::Power(a, exponent) if exponent.to_integer().is_none() => {
-                    (of_arguments && is_nowhere_zero(a), true)
-                }
-                Step::Power(a, exponent) if *exponent < Rational::from(0) => {
-                    (true, of_arguments && is_nowhere_zero(a))
-                }
-                Step::Unary(Atan, _) => (of_arguments, true),
-                _ => (true, of_arguments),
-            };
-            if !is_analytic {
-                return false;
-            }
-            has_no_pole[place] = has_value;
-        }
-        true
-    }
-
-    /// Whether f64 shows eigenvalues of both signs at one of the first states, for one of some choices of listed
-    /// values.
-    fn is_indefinite_somewhere(
-        &self,
-        count: usize,
-        draws: &[Draw],
-        choices: &[Vec<Option<Rational>>],
-    ) -> bool {
-        // Values of arbitrary functions are further inputs, of which nothing is known.
-        if self.graph.inputs() > draws.len() {
-            return false;
-        }
-        let states = drawn_numbers(draws, draws.len());
-        let tape = Tape::new(&self.graph, &self.masses);
-        let mut evaluator = Evaluator::new(&tape, Float::<STATES>);
-        // Few of the states may have the values of one choice.
-        choices.iter().any(|choice| {
-            let input = |(drawn, value): (&[f64; STATES], &Option<Rational>)| {
-                value.as_ref().map_or(*drawn, |value| [value.to_f64().0; STATES])
-            };
-            let inputs: Vec<[f64; STATES]> = states.iter().zip(choice).map(input).collect();
-            evaluator.run(&inputs);
-            let entries: Vec<[f64; STATES]> = evaluator.outputs().copied().collect();
-            (0..STATES).any(|lane| {
-                let matrix: Vec<Vec<f64>> = entries
-                    .chunks(count)
-                    .map(|row| row.iter().map(|own| own[lane]).collect())
-                    .collect();
-                is_indefinite(&matrix)
-            })
-        })
-    }
-}
-
-/// The first states as numbers, draw by draw; values of arbitrary functions are further inputs, and are 1.
-fn drawn_numbers(draws: &[Draw], inputs: usize) -> Vec<[f64; STATES]> {
-    let source = DrawSource::new(draws);
-    let states: Vec<Vec<(f64, bool)>> =
-        (0..STATES as u64).map(|index| source.nearest(0, index, 0)).collect();
-    let of = |draw: usize| std::array::from_fn(|lane| states[lane].get(draw).map_or(1.0, |x| x.0));
-    (0..inputs).map(of).collect()
 }
