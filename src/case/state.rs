@@ -11,7 +11,8 @@ use super::section::CaseTable;
 use super::shapes::{GivenValue, Refusal, given, state_draws};
 use crate::formula::Type;
 use crate::mechanics::{
-    Dependence, Draw, MatrixShape, Meaning, Range, SamplerSpec, TIME, Variable, Vocabulary,
+    Dependence, Draw, MatrixShape, Meaning, NumberLine, Range, SamplerSpec, TIME, Variable,
+    Vocabulary,
 };
 
 /// State variables with the draws of their components.
@@ -85,9 +86,9 @@ impl State {
         self.draws.extend(draws);
     }
 
-    /// Adds time, between -2 and 2.
+    /// Adds time, which is drawn between -2 and 2, and may be any.
     pub fn add_time(&mut self, vocabulary: &mut Vocabulary, reach: Dependence) {
-        let draw = Draw::Within(Range::between((-2, 1), (2, 1)));
+        let draw = Draw::Of(NumberLine::All, Range::between((-2, 1), (2, 1)));
         self.add(TIME, Type::Scalar, vec![draw], vocabulary, reach);
     }
 }

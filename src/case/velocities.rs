@@ -10,6 +10,10 @@ use crate::graph::{Expr, record};
 use crate::mechanics::{
     Algebra, Lagrangian, LevelEquation, LevelFunction, Model, Phase, System, VariableRole,
 };
+use crate::proof::{Extent, Group, GroupOutcome, InputDistribution, Prover};
+
+/// Seed of the proofs that slopes are 0.
+const SEED: u64 = 1;
 
 /// Rejects a rate that is not linear in the velocities although the equations of motion need it.
 /// Returns a warning for each constraint whose reaction is a matter of definition.
@@ -26,9 +30,22 @@ pub fn check(root: &CaseTable<'_>, model: &Model) -> Result<Vec<String>, Mistake
     }
     if let Some(index) = nonlinear.still.first() {
         let text = text_of(lagrangian, model, *index);
+        // The equation before is the one whose rate this is, if the file does not contain it.
+        let place = model.level.iter().position(|equation| equation.text == text);
+        let before = place.filter(|_| root.find(text).is_none()).and_then(|k| k.checked_sub(1));
+        let (text, message, remedy) = match before.map(|k| model.level[k].text.as_str()) {
+            Some(given) => (
+                given,
+                format!("`{given}` is kept by all velocities, and constrains none"),
+                "write it under [level], as one of `equations`",
+            ),
+            None => (
+                text,
+                "this constraint contains neither a velocity nor a coordinate".to_string(),
+                "write one such as x*x' + y*y' = 0, or x² + y² = 1",
+            ),
+        };
         let span = root.find(text).map(|start| start..start + text.len());
-        let message = "this constraint contains neither a velocity nor a coordinate".to_string();
-        let remedy = "write one such as x*x' + y*y' = 0, or x² + y² = 1";
         let problem = Problem::Sense { message, remedy: remedy.to_string() };
         return Err(Mistake::new(span, problem));
     }
@@ -103,11 +120,19 @@ impl Nonlinear {
         let constraints = (0..lagrangian.constraints.len())
             .filter(|k| !lagrangian.vakonomic && slopes.iter().any(|(_, all)| bends(all[*k])))
             .collect();
-        let is_still = |k: &usize| {
-            slopes
-                .iter()
-                .all(|(_, all)| graph.constant_value(all[*k]).is_some_and(|value| value.is_zero()))
+        // Also where terms cancel, as in (γ, γ × ω).
+        let inputs = parameters + dimension;
+        let (sources, extents) =
+            (vec![InputDistribution::Uniform; inputs], vec![Extent::ALL; inputs]);
+        let prover = Prover { sources: &sources, extents: &extents, seed: SEED };
+        let is_zero = |slope: Expr| match graph.constant_value(slope) {
+            Some(value) => value.is_zero(),
+            None => {
+                let found = prover.prove(&graph, &[Group::of(vec![slope])]);
+                found.is_ok_and(|found| found.iter().all(GroupOutcome::is_zero))
+            }
         };
+        let is_still = |k: &usize| slopes.iter().all(|(_, all)| is_zero(all[*k]));
         let still = match lagrangian.vakonomic || slopes.is_empty() {
             true => Vec::new(),
             false => (0..lagrangian.constraints.len()).filter(is_still).collect(),

@@ -14,10 +14,14 @@ use crate::formula::Value;
 use crate::graph::{Expr, literally, record};
 use crate::number::UnaryFunction;
 use crate::number::rational::Rational;
+use crate::proof::{Extent, Group, GroupOutcome, InputDistribution, Prover};
 use crate::scalar::Scalar;
 
 /// Largest number of choices of listed values that are looked at one by one.
 const MOST_CHOICES: usize = 64;
+
+/// Seed of the proofs that divisors are 0.
+const SEED: u64 = 1;
 
 /// Lists all choices of listed values, by draw; `None` if there are too many.
 pub fn combinations(recipes: &[Draw]) -> Option<Vec<Vec<Option<Rational>>>> {
@@ -49,8 +53,8 @@ pub fn combinations(recipes: &[Draw]) -> Option<Vec<Vec<Option<Rational>>>> {
 pub type ListedValues = Vec<(usize, Rational)>;
 
 impl Model {
-    /// Finds the choices of listed values for which the equations of motion have no solution by their form, as
-    /// accelerations are 0/0 or 1/0 where a mass is 0. Fields that formulas give are left out, as these formulas are
+    /// Finds the choices of listed values for which the equations of motion have no solution, as accelerations are 0/0
+    /// or 1/0 where a mass is 0. Fields that formulas give are left out, as these formulas are
     /// required anyway.
     pub fn find_undetermined(&self) -> Vec<ListedValues> {
         if self.system.is_given_by_formulas() {
@@ -75,8 +79,9 @@ impl Model {
             .collect()
     }
 
-    /// Whether the equations of motion have no solution by their form for a choice of listed values: those of a
-    /// Lagrangian where the determinant of its masses and constraints is 0, whatever they are solved by.
+    /// Whether the equations of motion have no solution for a choice of listed values: where what they are divided by is
+    /// 0 at every state, the determinant of masses and constraints for a Lagrangian, whatever it is solved by; or where
+    /// the rates have no value by their form.
     fn has_no_motion(&self, choice: &[Option<Rational>]) -> bool {
         let recorded = record(choice.len() + self.dimension(), |inputs| {
             let fixed = choice.iter().chain(std::iter::repeat(&None));
@@ -88,13 +93,24 @@ impl Model {
             let phase = Phase::new(self, &parameters, state);
             match &self.system {
                 System::Lagrangian(own) => (own.determinants(&phase), Vec::new()),
-                _ => (Vec::new(), phase.field().to_vec()),
+                body => (body.divisors(&phase.configuration), phase.field().to_vec()),
             }
         });
-        recorded.is_ok_and(|(graph, (determinants, field))| {
-            let is_zero = |own: Expr| graph.constant_value(own).is_some_and(Rational::is_zero);
-            determinants.into_iter().any(|own| is_zero(own) || graph.is_nowhere_defined(own))
-                || field.into_iter().any(|rate| graph.is_nowhere_defined(rate))
+        recorded.is_ok_and(|(graph, (divisors, rates))| {
+            let (sources, extents) = (
+                vec![InputDistribution::Uniform; graph.inputs()],
+                vec![Extent::ALL; graph.inputs()],
+            );
+            let prover = Prover { sources: &sources, extents: &extents, seed: SEED };
+            let is_zero = |own: Expr| match graph.constant_value(own) {
+                Some(value) => value.is_zero(),
+                None => {
+                    let found = prover.prove(&graph, &[Group::of(vec![own])]);
+                    found.is_ok_and(|found| found.iter().all(GroupOutcome::is_zero))
+                }
+            };
+            divisors.into_iter().any(|own| graph.is_nowhere_defined(own) || is_zero(own))
+                || rates.into_iter().any(|rate| graph.is_nowhere_defined(rate))
         })
     }
 }

@@ -14,7 +14,7 @@ use crate::claim::{ClaimKind, Lyapunov};
 use crate::formula::{Formula, Type, exponent_text};
 use crate::graph::{Expr, Graph, record};
 use crate::mechanics::calculus::DualPoint;
-use crate::mechanics::{ParameterOrigin, Phase, SamplerSpec, System};
+use crate::mechanics::{ParameterOrigin, Phase, SamplerSpec, System, Variable, VariableRole};
 use crate::number::ball::Ball;
 use crate::number::rational::Rational;
 use crate::proof::{
@@ -132,7 +132,7 @@ fn rates(
         let slopes: Vec<Expr> = factors.iter().map(|[slope, _]| *slope).collect();
         forms.extend(volterra_sum(&graph, growth, &slopes, free, &names));
     }
-    let power = power_of_forces(case);
+    let power = power_of_forces(case, function);
     if let Some(power) = &power {
         let (graph, power) = record(free + model.dimension(), |inputs| {
             let (parameters, state) = inputs.split_at(free);
@@ -163,19 +163,34 @@ fn rates(
     all.retain(|text| seen.insert(text.clone()));
     all.retain(|text| stage == Stage::All || text.len() <= SHORT);
     all.sort_by_key(String::len);
-    all.splice(0..0, power.map(|power| power.text().to_string()));
     all.truncate(MOST_RATES);
+    all.extend(power.map(|power| power.text().to_string()));
     Ok(all)
 }
 
-/// Writes Σ Qₖ wₖ, the rate of the energy of a Lagrangian with generalised forces Q, where constraints are homogeneous
-/// and nothing depends on time.
-fn power_of_forces(case: &Case) -> Option<Formula> {
+/// Writes Σ Qₖ wₖ + (∂(F − E)/∂q, q') for a Lagrangian with generalised forces Q and energy E: the rate of F where
+/// F − E depends on coordinates alone, constraints are homogeneous and nothing depends on time.
+fn power_of_forces(case: &Case, function: &Formula) -> Option<Formula> {
     let System::Lagrangian(own) = &case.model.system else { return None };
-    let term = |(component, force): &(usize, Formula)| {
+    if own.forces.is_empty() {
+        return None;
+    }
+    let force = |(component, force): &(usize, Formula)| {
         format!("({})*{}", force.text(), case.model.component_name(*component))
     };
-    let terms: Vec<String> = own.forces.iter().map(term).collect();
+    let forces = own.forces.iter().map(force);
+    let slope = |(variable, role): (&Variable, &VariableRole)| {
+        let (name, is_coordinate) = (&variable.name, matches!(role, VariableRole::Coordinate(_)));
+        let slope = format!("∂({} - energy)/∂{name}", function.text());
+        match variable.kind {
+            Type::Scalar => is_coordinate.then(|| format!("({slope})*({name}')")),
+            Type::Vector(_) => is_coordinate.then(|| format!("({slope}, {name}')")),
+            Type::Matrix(..) => None,
+        }
+    };
+    let slopes = case.model.state.iter().zip(&own.roles).filter_map(slope);
+    let is_energy = function.text().trim() == "energy";
+    let terms: Vec<String> = forces.chain(slopes.filter(|_| !is_energy)).collect();
     case.formula(&terms.join(" + ")).ok()
 }
 
