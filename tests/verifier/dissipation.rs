@@ -198,3 +198,58 @@ fn a_form_without_a_value_at_few_states_shows_nothing_there() {
     verdicts(&volterra("-"), &[Undecided]);
     verdicts(&volterra("+"), &[Proved]);
 }
+
+#[test]
+fn friction_of_a_lagrangian_takes_its_energy() {
+    let arm = |forces: &str, claims: &str| {
+        format!(
+            "title = 'x'\n[parameters]\na = '4..5'\nb = '0.2..0.5'\nc = '1..2'\nd1 = '0.5..2'\nd2 = '0.5..2'\n\
+             k = '0.5..2'\n[state]\nx = '-1..1'\ny = '-1..1'\n\"x'\" = '-1..1'\n\"y'\" = '-1..1'\n[lagrangian]\n\
+             kinetic = \"((a+2*b*cos(y))*x'^2 + 2*(c+b*cos(y))*x'*y' + c*y'^2)/2\"\n\
+             potential = 'cos(x)'\nforces = {{ {forces} }}\n{claims}"
+        )
+    };
+    let friction = "x = \"-d1*x'\", y = \"-d2*y'\"";
+    let remark = verdicts(&arm(friction, &lyapunov("energy")), &[Proved]);
+    assert!(remark.contains("its rate is"), "{remark}");
+    verdicts(&arm(&friction.replace("-d2", "d2"), &lyapunov("energy")), &[Refuted]);
+    // One friction between two joints, whose power is a square: −c(x' − y')².
+    let joint = "x = \"-d1*(x' - y')\", y = \"d1*(x' - y')\"";
+    verdicts(&arm(joint, &lyapunov("energy")), &[Proved]);
+    verdicts(&arm("x = \"-d1*(x' - y')\", y = \"-d1*(x' - y')\"", &lyapunov("energy")), &[Refuted]);
+    // A spring in the forces has its energy in F alone.
+    let spring = "x = \"-d1*x' - k*x - sin(x)\", y = \"-d2*y' - k*y\"";
+    let function = "energy - cos(x) + k*(x^2 + y^2)/2";
+    verdicts(&arm(spring, &lyapunov(function)), &[Proved]);
+    verdicts(&arm(spring, &lyapunov(&function.replace("- cos", "+ cos"))), &[Refuted]);
+}
+
+#[test]
+fn squares_have_parameters_of_their_own() {
+    let backstepping = |sign: &str| {
+        format!(
+            "title = 'x'\n[parameters]\na = '0.5..1'\nb = '0.5..1'\n[state]\nx = '-1..1'\ny = '-1..1'\n[let]\n\
+             z = 'y + a*x'\n[field]\n\"x'\" = 'y'\n\"y'\" = '-x {sign} b*z - a*y'\n{}",
+            lyapunov("x^2/2 + z^2/2")
+        )
+    };
+    // −a x² − b z².
+    verdicts(&backstepping("-"), &[Proved]);
+    verdicts(&backstepping("+"), &[Refuted]);
+}
+
+#[test]
+fn times_that_are_not_declared_are_all_times() {
+    let driven = |field: &str, claims: &str| {
+        format!("title = 'x'\n[state]\nx = '-1..1'\n[field]\n\"x'\" = '{field}'\n{claims}")
+    };
+    verdicts(&driven("-x*(5 - t^2)", &lyapunov("x^2")), &[Refuted]);
+    verdicts(&driven("-x*(5 + t^2)", &lyapunov("x^2")), &[Proved]);
+    let identity = "[[claim]]\nidentity = '|t - 3| = 3 - t'\nexpect = 'open'\n";
+    verdicts(&driven("-x*t", identity), &[Refuted]);
+    let declared = driven("-x*t", identity).replace("[field]", "t = '-2..2'\n[field]");
+    verdicts(&declared, &[Proved]);
+    // Steep, but with a value everywhere.
+    let steep = driven("-tanh(1000*x)", &lyapunov("x^2"));
+    assert_eq!(judged(&steep).warnings, Vec::<String>::new());
+}
