@@ -338,6 +338,8 @@ impl<T: SeriesNumber> BoundProgram<T> {
             }
             Rule::Sign(x) => (OrderEffect::Free, PlacedRule::Sign(at(x))),
             Rule::Near(x, reach) => (OrderEffect::Free, PlacedRule::Near(at(x), *reach)),
+            // Enclosures alone have these; a number has no value there.
+            Rule::Choice(_) | Rule::Bounded(..) => (OrderEffect::Free, PlacedRule::Sum),
             Rule::Power { x, exponent } => {
                 let factor = T::rational(exponent);
                 (
@@ -357,7 +359,11 @@ impl<T: SeriesNumber> BoundProgram<T> {
         if !instruction.form.products.is_empty() {
             self.counts.push(instruction.form.products.len() as u32);
         }
-        let none = if matches!(rule, PlacedRule::Sign(_)) { T::ONE } else { T::ZERO };
+        let none = match (&rule, &instruction.rule) {
+            (PlacedRule::Sign(_), _) => T::ONE,
+            (_, Rule::Choice(_) | Rule::Bounded(..)) => T::float(f64::NAN),
+            _ => T::ZERO,
+        };
         let constant = instruction.form.constant.as_ref().map_or(none, T::rational);
         self.operations.push(InitialOperation { rule, constant, factors, terms });
         let copies = self.copies_of(layout, instruction.out);

@@ -2,9 +2,11 @@
 //! exactly.
 
 mod limits;
+mod proved;
 mod simpler;
 
 use crate::error::FlowError;
+use crate::taylor::compile::proved::PowersNear;
 use crate::taylor::form::{BilinearForm, Row};
 use crate::taylor::program::{RowInstruction, Rule, TaylorProgram};
 use crate::taylor::quotients::Needed;
@@ -63,6 +65,8 @@ impl TaylorProgram {
             thetas: Vec::new(),
             signs: Vec::new(),
             saturating: Vec::new(),
+            is_exact: constants.is_none(),
+            series: Vec::new(),
         };
         for (place, step) in graph.steps().enumerate().filter(|(place, _)| reached[*place]) {
             let form = match (step, constants.and_then(|constants| constants[place])) {
@@ -143,6 +147,10 @@ struct Compiler {
     signs: Vec<(Row, Row)>,
     /// Functions that tend to constants: argument, function.
     saturating: Vec<(Saturating, Row, Row)>,
+    /// Whether nothing may be rounded.
+    is_exact: bool,
+    /// Powers of the variables of proved series, made once.
+    series: Vec<PowersNear>,
 }
 
 impl Compiler {

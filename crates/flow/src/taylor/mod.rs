@@ -18,6 +18,7 @@ pub(crate) mod pace;
 pub(crate) mod plain;
 pub(crate) mod program;
 pub(crate) mod quotients;
+mod remainder;
 mod removable;
 pub(crate) mod resolve;
 pub(crate) mod rounding;

@@ -65,14 +65,20 @@ pub enum Rule {
     Sign(Row),
     /// 1 where |x| is below half of the number, and 0 elsewhere.
     Near(Row, f64),
+    /// The second row where the first is 1, and the third where it is 0; in exact programs alone.
+    Choice([Row; 3]),
+    /// A function Σ a_k x^k of which it is known that Σ |a_k| R^k ≤ c, with R and c; in exact programs
+    /// alone.
+    Bounded(Row, [f64; 2]),
 }
 
 impl Rule {
     /// Row that the rule is a function of; `None` for a sum, which has several.
     pub(crate) fn argument(&self) -> Option<Row> {
         match self {
-            Rule::Sum => None,
-            Rule::Theta(x)
+            Rule::Sum | Rule::Choice(_) => None,
+            Rule::Bounded(x, _)
+            | Rule::Theta(x)
             | Rule::Recip(x)
             | Rule::Sqrt(x)
             | Rule::Exp(x)

@@ -42,7 +42,7 @@ fn rounded(instruction: &RowInstruction, rows: &[Rounded], epsilon: f64) -> Roun
     };
     match &instruction.rule {
         Rule::Sum => sum(instruction, rows, epsilon),
-        Rule::Theta(_) => Rounded::default(),
+        Rule::Theta(_) | Rule::Choice(_) | Rule::Bounded(..) => Rounded::default(),
         Rule::Saturating { function, x, .. } => {
             let bound = match function {
                 Saturating::Sinh | Saturating::Cosh => Saturating::Cosh.at(rows[*x].value),

@@ -115,7 +115,10 @@ impl Compiler {
             });
         }
         for own in &simpler.limits {
-            rows.push(self.limit(own));
+            rows.push(match &own.proved {
+                Some(proved) if self.is_exact => self.proved_limit(own, proved),
+                _ => self.limit(own),
+            });
         }
         let mut others: Vec<Row> = Vec::new();
         for (place, power) in &simpler.rest.factors {
