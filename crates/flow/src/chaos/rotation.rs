@@ -54,7 +54,9 @@ impl RotationNumber {
         let resonance = simplest(means[0] - error, means[0] + error, most);
         let resonance = resonance.filter(|(_, q)| error * (*q as f64).powi(2) <= CHANCE);
         if !order.is_kept(&lifts) && !resonance.is_some_and(|own| order.is_of_islands(own)) {
-            return order.is_seen_aside().then(|| Self::none(&angles));
+            // On a curve the mean advance settles; in chaos it is 0 by as much as the angles are strewn.
+            let settles = error * count as f64 <= CHANCE;
+            return (settles && order.is_seen_aside()).then(|| Self::none(&angles));
         }
         let resonance = resonance.map(|(p, q)| (p % q, q));
         // Just below a whole turn is just below 0.

@@ -127,9 +127,10 @@ impl Simpler {
     pub(super) fn of(graph: &Graph, place: usize) -> Option<Self> {
         let mut simpler = Self::whole(graph, place)?;
         simpler.signs(graph)?;
+        let has_roots = simpler.roots(graph)?;
         simpler.limits(graph);
         simpler.saturating(graph);
-        let is_simpler = !simpler.factors.is_empty() || !simpler.limits.is_empty();
+        let is_simpler = has_roots || !simpler.factors.is_empty() || !simpler.limits.is_empty();
         is_simpler.then_some(simpler)
     }
 
@@ -158,6 +159,36 @@ impl Simpler {
             }
         }
         Some(())
+    }
+
+    /// Writes x/√x as √x where x contains a modulus: max(x, 0) is 0 for a while. Returns whether there is
+    /// one.
+    fn roots(&mut self, graph: &Graph) -> Option<bool> {
+        let (rest, mut found) = (&mut self.rest, false);
+        for (root, power) in rest.factors.clone().into_iter().filter(|(_, power)| *power < 0) {
+            let Step::Unary(UnaryFunction::Sqrt, a) = graph.step(root) else { continue };
+            let argument = Product::of(graph, a)?;
+            if !graph
+                .reached_from(&[a])
+                .iter()
+                .enumerate()
+                .any(|(place, is_part)| *is_part && modulus_at(graph, place).is_some())
+            {
+                continue;
+            }
+            for _ in 0..power.unsigned_abs() {
+                if rest.power(root) >= 0 || !argument.is_in(rest, 1) {
+                    break;
+                }
+                rest.add(root, 2);
+                for (factor, own) in &argument.factors {
+                    rest.add(*factor, -own);
+                }
+                rest.coefficient = &rest.coefficient * &argument.coefficient.recip()?;
+                found = true;
+            }
+        }
+        Some(found)
     }
 
     /// Takes out quotients that have limits where their divisors are 0.

@@ -56,6 +56,10 @@ fn rounded(instruction: &RowInstruction, rows: &[Rounded], epsilon: f64) -> Roun
             let is_near = rows[*x].value.abs() < 0.5 * reach;
             Rounded { value: f64::from(u8::from(is_near)), error: 0.0 }
         }
+        Rule::Void(x) => {
+            let is_void = rows[*x].value <= 0.0;
+            Rounded { value: f64::from(u8::from(is_void)), error: 0.0 }
+        }
         Rule::Sign(x) => Rounded { value: 1f64.copysign(rows[*x].value), error: 0.0 },
         Rule::Recip(x) => {
             let x = rows[*x];

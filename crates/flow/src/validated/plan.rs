@@ -124,7 +124,9 @@ impl Plan {
                 }
                 Rule::Theta(x) => RowRule::Theta(*x),
                 Rule::Recip(x) => RowRule::Recip(*x),
-                Rule::Sign(_) | Rule::Saturating { .. } => return Err(FlowError::NotAnalytic),
+                Rule::Sign(_) | Rule::Void(_) | Rule::Saturating { .. } => {
+                    return Err(FlowError::NotAnalytic);
+                }
                 Rule::Near(x, reach) => RowRule::Near(*x, *reach),
                 Rule::Choice([near, close, far]) => {
                     RowRule::Choice { near: *near, close: *close, far: *far }
