@@ -8,7 +8,6 @@
 //! the cubic polynomial with its values and rates at the ends.
 
 use crate::taylor::number::SeriesNumber;
-use crate::taylor::shorten::known_part;
 use crate::taylor::stepper::Stepper;
 use crate::taylor::watch::Edge;
 
@@ -16,7 +15,7 @@ use crate::taylor::watch::Edge;
 const DOUBT: f64 = 4.0;
 /// Length of a step across in times to the zero, and least ratio to the Taylor step.
 const BEYOND: f64 = 2.0;
-const LONGER: f64 = 4.0;
+const LONGER: f64 = 1.25;
 /// Part of A that its second term may reach at the zero: where A touches 0, it is a quarter or more.
 const BENT: f64 = 0.125;
 /// Number of lengths tried from a zero on, and the ratio of one to the next.
@@ -42,14 +41,13 @@ impl<T: SeriesNumber> Stepper<T> {
             return;
         }
         for lane in 0..T::LANES {
-            let is_lost = self.lanes[lane]
-                .edge
-                .is_some_and(|(edge, after)| edge.ends().is_some() && after.leading() == 0.0);
-            if self.lanes[lane].lost.is_some() || is_lost || !self.is_regular(lane) {
+            let at_once = self.lanes[lane].edge.filter(|(_, after)| after.leading() == 0.0);
+            let is_lost = matches!(at_once, Some((Edge::Watched(_), _)));
+            if self.lanes[lane].lost.is_some() || is_lost {
                 continue;
             }
-            let places: Vec<_> = self.series.voids().map(|(void, ..)| void).collect();
-            let wanted = (0..places.len()).find_map(|index| self.length_across(index, lane));
+            let count = self.series.voids().count();
+            let wanted = (0..count).find_map(|index| self.length_across(index, lane));
             match wanted {
                 None => {}
                 Some(Across::Over(length)) => {
@@ -81,16 +79,14 @@ impl<T: SeriesNumber> Stepper<T> {
         let error = || DOUBT * self.series.value_error(place, lane, &self.peaks);
         if is_void || rises {
             let longest = left.abs().min(self.natural_time(lane));
-            // What stays 0 up to rounding has no zero to leave.
-            let reach = known_part(&terms, T::One::float(longest / motion.unit), self.kappa);
-            let size = |x: &T::One, k: usize| {
-                x.leading().abs() * libm::pow(reach.leading().abs(), k as f64)
-            };
-            let grows = || {
-                let all = terms.iter().enumerate().skip(1).map(|(k, x)| size(x, k));
-                all.fold(0.0, f64::max) > error()
-            };
-            let begins = is_void || first <= error();
+            // What stays 0 up to rounding has no zero to leave. Beside it the series of a root ends at once.
+            let reach = T::EPSILON.powf(0.25) * longest / motion.unit;
+            let known = if is_void { terms.len() } else { 2 };
+            let size = |k: usize| terms[k].leading().abs() * libm::pow(reach, k as f64);
+            let grows = || (1..known).map(size).fold(0.0, f64::max) > error();
+            let since = (first / rate).abs() * motion.unit;
+            let is_near = since <= T::EPSILON.powf(0.75) * self.natural_time(lane);
+            let begins = is_void || is_near || first <= error();
             return (begins && grows()).then_some(Across::From(longest));
         }
         let time = (first / rate).abs();
@@ -221,6 +217,12 @@ impl<T: SeriesNumber> Stepper<T> {
             self.series.put_output(index, lane, [first, rate, second]);
         }
         self.sampled.is_present = false;
+        // The series that the step takes the place of may have no numbers.
+        let soundness = self.sizes.soundness;
+        self.sizes.soundness = T::from_lanes(|other| match other == lane {
+            true => T::One::ZERO,
+            false => soundness.lane(other),
+        });
         let motion = &mut self.lanes[lane];
         (motion.step, motion.edge, motion.halves, motion.is_cut) = (step, None, 0, true);
         (motion.is_stuck, motion.is_faint) = (false, false);

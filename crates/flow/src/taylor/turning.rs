@@ -134,6 +134,9 @@ impl<T: SeriesNumber> Stepper<T> {
         if argument.iter().all(|term| term.leading() == 0.0) {
             return true;
         }
+        // Next to the zero of a root the terms of higher orders may be too large.
+        let known = argument.iter().take_while(|term| term.leading().is_finite()).count();
+        argument.truncate(known.max(2));
         let error = self.series.value_error(row, lane, &self.peaks).max(FAINT);
         // A field that is 0 on one side has steps without an end.
         let left = (self.lanes[lane].until - self.lanes[lane].time).hi / self.lanes[lane].unit;

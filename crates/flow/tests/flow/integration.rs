@@ -9,6 +9,7 @@ mod jumps;
 mod lanes;
 mod limits;
 mod moduli;
+mod powers;
 mod presence;
 mod progress;
 mod roots;
