@@ -100,7 +100,7 @@ impl<T: SeriesNumber> Stepper<T> {
     }
 
     /// Time in which a motion changes by its own size.
-    fn natural_time(&self, lane: usize) -> f64 {
+    pub(super) fn natural_time(&self, lane: usize) -> f64 {
         let [still, moving, ..] = self.sizes.norms.map(|norm| norm.lane(lane).leading());
         let time = if still > 0.0 { still / moving } else { moving.recip() };
         if time.is_finite() { time * self.lanes[lane].unit } else { f64::INFINITY }

@@ -134,13 +134,18 @@ impl<T: SeriesNumber> Stepper<T> {
         if argument.iter().all(|term| term.leading() == 0.0) {
             return true;
         }
-        // Next to the zero of a root the terms of higher orders may be too large.
-        let known = argument.iter().take_while(|term| term.leading().is_finite()).count();
-        argument.truncate(known.max(2));
         let error = self.series.value_error(row, lane, &self.peaks).max(FAINT);
         // A field that is 0 on one side has steps without an end.
         let left = (self.lanes[lane].until - self.lanes[lane].time).hi / self.lanes[lane].unit;
         let length = self.step_size(lane).min(left.abs()).copysign(left);
+        // Next to the zero of a root terms of higher orders say nothing, and the rate decides.
+        let rate = argument[1].leading() * left.signum();
+        let reach = T::EPSILON.powf(0.25) * self.natural_time(lane) / self.lanes[lane].unit;
+        let is_next =
+            self.lanes[lane].came_to == Some(sign) && self.series.voids().next().is_some();
+        if is_next && rate.abs() * reach > error {
+            return (rate > 0.0) == is_positive;
+        }
         match argument[0].leading() {
             first if first.is_nan() || length.is_nan() => true,
             _ if self.lanes[lane].steps > 0 => {
