@@ -70,6 +70,8 @@ impl<'r> Request<'r> {
 
 /// Part of its size that a component covers along an orbit, below which it counts as a constant.
 const CONSTANT: f64 = 1e-6;
+/// Part of the state's size below which that of a component is rounding.
+const ROUNDED: f64 = 1e-10;
 
 /// Largest distance of a component of a point from that of a state, relative to what the component covers
 /// along an orbit through these nodes: a large constant beside others makes no orbit near. Of one that does
@@ -85,12 +87,8 @@ pub(super) fn moved<'n>(
         let (low, high) = values()
             .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(*x), high.max(*x)));
         let largest = low.abs().max(high.abs());
-        let scale = match high - low > CONSTANT * largest {
-            true => high - low,
-            false if largest > 0.0 => largest,
-            false => size,
-        };
-        (x.mid - y).abs() / scale
+        let scale = if high - low > CONSTANT * largest { high - low } else { largest };
+        (x.mid - y).abs() / scale.max(ROUNDED * size)
     });
     apart.fold(0.0, |a: f64, b| if b.is_nan() { b } else { a.max(b) })
 }
