@@ -226,6 +226,16 @@ mod tests {
     }
 
     #[test]
+    fn chaos_aside_of_the_centre_has_no_number() {
+        let (mut seed, mut angles) = (11u64, Vec::new());
+        for _ in 0..1000 {
+            seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            angles.push(0.25 * TAU * ((seed >> 11) as f64 / (1u64 << 53) as f64));
+        }
+        assert_eq!(RotationNumber::of(&angles), None);
+    }
+
+    #[test]
     fn curves_aside_of_the_centre_do_not_turn() {
         // An invariant circle of radius 0.4 about a point at a distance of 1 from the centre
         for turns in [0.6 + 1e-4, 8.0 / 15.0 + 1e-6, 0.618_033_988_749_894_9, 16.0 / 17.0 + 1e-7] {

@@ -14,6 +14,7 @@ mod presence;
 mod progress;
 mod roots;
 mod sections;
+mod sets;
 mod surfaces;
 
 use liouville::case::Case;
