@@ -221,7 +221,9 @@ impl Compiler {
                 BilinearForm::of_row(Self::one(), row)
             }
             Step::Power(a, exponent) => {
-                let may_be_void = !exponent.is_negative() && self.may_be_void(a);
+                // Of others 0 has no power, as written.
+                let is_half = (exponent * &Rational::from(2)).to_integer().is_some();
+                let may_be_void = is_half && !exponent.is_negative() && self.may_be_void(a);
                 let (x, on) = match may_be_void {
                     true => {
                         let (x, on) = self.base(a);
