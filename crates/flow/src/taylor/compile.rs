@@ -2,7 +2,7 @@
 //! exactly.
 
 mod limits;
-mod proved;
+pub(crate) mod proved;
 mod simpler;
 
 use crate::error::FlowError;

@@ -6,8 +6,24 @@
 use super::Compiler;
 use crate::taylor::form::{BilinearForm, Row};
 use crate::taylor::program::Rule;
+use crate::taylor::quotients::Needed;
 use crate::taylor::removable::{ProvedSeries, Removable};
+use crate::taylor::watch::Domain;
+use liouville::graph::{Expr, Graph};
 use liouville::number::rational::Rational;
+
+/// Operations that values contain as written, and that an exact program of some rates does without:
+/// quotients with limits pass where their divisors are 0, and 0/x as written has no value there.
+pub(crate) fn passed(graph: &Graph, rates: &[Expr], written: &[Expr]) -> Vec<Expr> {
+    let needed = |values: &[Expr]| {
+        let wanted: Vec<usize> = values.iter().map(|value| graph.place(*value)).collect();
+        Needed::exactly(graph, &wanted).places
+    };
+    let (made, all) = (needed(rates), needed(written));
+    let lost = (0..graph.len()).filter(|place| all[*place] && !made[*place]);
+    let lost = lost.filter(|place| Domain::of(graph.step(*place)).is_some());
+    lost.map(|place| graph.at(place)).collect()
+}
 
 /// Powers of a variable near the place where it is 0.
 pub(super) struct PowersNear {

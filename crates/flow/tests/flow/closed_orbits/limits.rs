@@ -2,9 +2,10 @@
 
 use std::f64::consts::PI;
 
+use liouville::case::Case;
 use liouville::verdict::Verdict;
 
-use super::{assert_known, assert_same, judged, proved, replayed};
+use super::{assert_known, assert_same, judged, of_kind, proved, replayed};
 
 /// The unit circle, run through with the speed (e^u − 1)/u, u = k (x − s).
 fn circle(quotient: &str, claim: &str) -> String {
@@ -49,6 +50,21 @@ fn proofs_through_limits_are_replayed() {
     let again = replayed(&case, &found.data).expect("proved again");
     assert_same(again.period, found.period, "period");
     assert_same(again.volume, found.volume, "∮ div v dt");
+}
+
+#[test]
+fn what_is_written_beside_a_quotient_has_to_have_a_value() {
+    let claim = |further: &str| {
+        let text = format!(
+            "title = \"x\"\n[state]\nx = \"-2..2\"\ny = \"-2..2\"\n[field]\n\"x'\" = \"-1\"\n\
+             \"y'\" = \"sin(x)/x{further}\"\n[[claim]]\nreaches = \"y\"\nabove = \"1.8921661407343\"\n\
+             below = \"1.8921661407344\"\nstate = {{ x = \"1\", y = \"0\" }}\ntime = \"2\"\n"
+        );
+        of_kind(Case::parse(&text, &[]).expect("a case"), "reaches").remove(0).verdict
+    };
+    // 2 Si(1)
+    assert_eq!(claim(""), Verdict::Proved);
+    assert_ne!(claim(" + 0*(1/x)"), Verdict::Proved, "0/0 is no quotient with a limit");
 }
 
 #[test]
