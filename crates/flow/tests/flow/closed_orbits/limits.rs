@@ -27,7 +27,8 @@ fn period(inverse: impl Fn(f64) -> f64) -> f64 {
 
 #[test]
 fn orbits_pass_quotients_with_limits() {
-    let cases: [(&str, fn(f64) -> f64); 4] = [
+    type Inverse = fn(f64) -> f64;
+    let cases: [(&str, Inverse); 4] = [
         ("(exp(x) - 1)/x", |x| x / x.exp_m1()),
         ("(x - 1/2)/(1 - exp(-3*(x - 1/2)))", |x| -(-3.0 * (x - 0.5)).exp_m1() / (x - 0.5)),
         ("sin(2*x)/x", |x| x / (2.0 * x).sin()),

@@ -76,7 +76,7 @@ fn zeros_that_are_touched_end_a_motion() {
         liouville::number::double_double::DoubleDouble::from_f64(9.0),
         Precision::Float,
     );
-    let found = found.err().expect("it runs empty at t = 2").to_string();
+    let found = found.expect_err("it runs empty at t = 2").to_string();
     assert!(found.contains("singularity at t = "), "{found}");
 }
 
