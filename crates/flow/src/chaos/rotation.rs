@@ -17,10 +17,6 @@ const CUTS: usize = 32;
 const ROUNDING: f64 = 1e-9;
 /// Largest product of the error and the square of a denominator at which a fraction is no accident.
 const CHANCE: f64 = 1e-3;
-/// Number of pairs of successive angles that are looked at, and their distance from each other on a curve
-/// of the width 1, times their number.
-const MOST_PAIRS: usize = 2000;
-const THIN: f64 = 4.0;
 /// Number of times an orbit has to go through all islands of a chain.
 const ROUNDS: u64 = 8;
 
@@ -58,7 +54,7 @@ impl RotationNumber {
         let resonance = simplest(means[0] - error, means[0] + error, most);
         let resonance = resonance.filter(|(_, q)| error * (*q as f64).powi(2) <= CHANCE);
         if !order.is_kept(&lifts) && !resonance.is_some_and(|own| order.is_of_islands(own)) {
-            return (order.is_seen_aside() && is_on_curve(&angles)).then(|| Self::none(&angles));
+            return order.is_seen_aside().then(|| Self::none(&angles));
         }
         let resonance = resonance.map(|(p, q)| (p % q, q));
         // Just below a whole turn is just below 0.
@@ -144,28 +140,6 @@ impl<'a> Order<'a> {
     }
 }
 
-/// Whether pairs of successive angles, all within a half turn, lie on a curve and are not strewn over an
-/// area, as in chaos: of n points on a curve most are nearer than a few parts in n to another one.
-fn is_on_curve(angles: &[f64]) -> bool {
-    let mut sorted = angles.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    let gaps = sorted.windows(2).map(|pair| [pair[1] - pair[0], pair[1]]);
-    let round = sorted.first().zip(sorted.last()).map(|(first, last)| [first + 1.0 - last, *first]);
-    let widest = gaps.chain(round).max_by(|a, b| a[0].total_cmp(&b[0])).unwrap_or_default();
-    let width = (1.0 - widest[0]).max(f64::MIN_POSITIVE);
-    let places = angles.iter().take(MOST_PAIRS).map(|angle| turned(angle - widest[1]) / width);
-    let places: Vec<f64> = places.collect();
-    let pairs: Vec<&[f64]> = places.windows(2).collect();
-    let distance = |a: &[f64], b: &[f64]| libm::hypot(a[0] - b[0], a[1] - b[1]);
-    let nearest = |(index, own): (usize, &&[f64])| {
-        let others = pairs.iter().enumerate().filter(|(other, _)| *other != index);
-        others.map(|(_, other)| distance(own, other)).fold(f64::INFINITY, f64::min)
-    };
-    let mut all: Vec<f64> = pairs.iter().enumerate().map(nearest).collect();
-    all.sort_by(f64::total_cmp);
-    all.get(all.len() / 2).is_some_and(|middle| *middle <= THIN / pairs.len() as f64)
-}
-
 /// Values below which an advance gets another turn: in the middle of the widest gaps between advances.
 fn cuts(advances: &[f64]) -> Vec<f64> {
     let mut sorted = advances.to_vec();
@@ -247,16 +221,6 @@ mod tests {
         assert_eq!(RotationNumber::of(&near).and_then(|own| own.resonance), Some((1, 2)));
         let rest = RotationNumber::of(&[1.25; 100]).expect("a number");
         assert_eq!((rest.resonance, rest.turns.value), (Some((0, 1)), 0.0));
-    }
-
-    #[test]
-    fn chaos_aside_of_the_centre_has_no_number() {
-        let (mut seed, mut angles) = (11u64, Vec::new());
-        for _ in 0..1000 {
-            seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-            angles.push(0.25 * TAU * ((seed >> 11) as f64 / (1u64 << 53) as f64));
-        }
-        assert_eq!(RotationNumber::of(&angles), None);
     }
 
     #[test]

@@ -159,7 +159,7 @@ mod tests {
             // the first term left out, and e^R of it
             let radius = radius(index);
             let first = (1..=LENGTH).fold(1.0, |term, k| term * radius / k as f64);
-            assert!(*found >= first, "{radius}: {found} < {first}");
+            assert!(*found >= first || !found.is_finite(), "{radius}: {found} < {first}");
             assert!(radius > 8.0 || *found < 4.0 * first + 1e-300, "{radius}: {found} > {first}");
         }
     }
