@@ -74,7 +74,7 @@ const CONSTANT: f64 = 1e-6;
 const ROUNDED: f64 = 1e-10;
 
 /// Largest distance of a component of a point from that of a state, relative to what the component covers
-/// along an orbit through these nodes: a large constant beside others makes no orbit near. Of one that does
+/// along an orbit through these nodes: a large constant among them makes no orbit near. Of one that does
 /// not vary its size counts.
 pub(super) fn moved<'n>(
     point: &[Enclosure],

@@ -54,7 +54,7 @@ fn proofs_through_limits_are_replayed() {
 }
 
 #[test]
-fn what_is_written_beside_a_quotient_has_to_have_a_value() {
+fn what_is_written_next_to_a_quotient_has_to_have_a_value() {
     let claim = |further: &str| {
         let text = format!(
             "title = \"x\"\n[state]\nx = \"-2..2\"\ny = \"-2..2\"\n[field]\n\"x'\" = \"-1\"\n\
