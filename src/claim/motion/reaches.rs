@@ -1,6 +1,6 @@
 //! Values of a function at a time of a motion, proved by enclosures.
 
-use super::{Beginning, Motional, time};
+use super::{Beginning, Motional, required_number, time};
 use crate::claim::Reader;
 use crate::formula::{Formula, Type};
 
@@ -17,6 +17,8 @@ pub struct Reaches {
     pub beginning: Beginning,
     /// Time at which the function is evaluated.
     pub time: f64,
+    /// The time as written.
+    pub time_text: String,
 }
 
 impl Motional for Reaches {
@@ -41,7 +43,8 @@ impl Motional for Reaches {
             let message = "an enclosed motion begins at a state".to_string();
             return Err(from.complaint(Self::NAME, message, "write state = { … }"));
         }
-        Ok(Self { function, above, below, beginning, time: time(from)? })
+        let time_text = required_number(from, "time")?.text;
+        Ok(Self { function, above, below, beginning, time: time(from)?, time_text })
     }
 
     fn beginning(&self) -> &Beginning {
@@ -53,7 +56,7 @@ impl Motional for Reaches {
         let above = self.above.as_ref().map(|bound| format!("{} < ", trimmed(bound)));
         let below = self.below.as_ref().map(|bound| format!(" < {}", trimmed(bound)));
         let (above, below) = (above.unwrap_or_default(), below.unwrap_or_default());
-        let (time, start) = (self.time, self.beginning.text());
+        let (time, start) = (&self.time_text, self.beginning.text());
         format!("{above}{}{below} at t = {time} from {start}", trimmed(&self.function))
     }
 }

@@ -56,7 +56,7 @@ fn multiple_of_pi(factor: &str, divisor: &str) -> Option<(f64, f64)> {
     Some((value.to_f64().0 * PI, unit(factor)? * share.to_f64().0.abs() * PI))
 }
 
-/// Returns one unit in the last place of a decimal, and 0 for an integer; of a quotient what the units of both make.
+/// Returns one unit in the last place of a decimal, with a point or a negative exponent, and 0 for an integer; of a quotient what the units of both make.
 fn unit(number: &str) -> Option<f64> {
     if let Some((above, below)) = number.split_once('/') {
         let value = |text: &str| Some(text.trim().parse::<Rational>().ok()?.to_f64().0.abs());
@@ -68,7 +68,10 @@ fn unit(number: &str) -> Option<f64> {
         Some((digits, exponent)) => (digits, exponent.trim().parse().ok()?),
         None => (number, 0),
     };
-    let Some((_, decimals)) = digits.split_once('.') else { return Some(0.0) };
+    let Some((_, decimals)) = digits.split_once('.') else {
+        // 628e-2 is 6.28.
+        return Some(if exponent < 0 { libm::pow(10.0, f64::from(exponent)) } else { 0.0 });
+    };
     let places = i32::try_from(decimals.bytes().filter(u8::is_ascii_digit).count()).ok()?;
     Some(libm::pow(10.0, f64::from(i32::checked_sub(exponent, places)?)))
 }
@@ -87,6 +90,8 @@ mod tests {
         assert_eq!(read("0.50"), Some((0.5, 0.01, 0.0)), "two decimals");
         assert_eq!(read("0.035 ± 0.003"), Some((0.035, 0.001, 0.003)), "with its error");
         assert_eq!(read("2.5e-3"), Some((0.0025, 1e-4, 0.0)), "an exponent moves the place");
+        assert_eq!(read("628e-2"), Some((6.28, 0.01, 0.0)), "a decimal without a point");
+        assert_eq!(read("3e2"), Some((300.0, 0.0, 0.0)), "an integer");
         assert_eq!(read("1_000.12_5"), Some((1000.125, 1e-3, 0.0)), "digits in groups");
         assert_eq!(read("1.50/3"), Some((0.5, 0.01 / 3.0, 0.0)), "two decimals over a number");
         assert_eq!(read("3/1.5"), Some((2.0, 2.0 * 0.1 / 1.5, 0.0)), "one decimal below");

@@ -14,6 +14,8 @@ use liouville_flow::{Branch, BranchEnd, BranchPoint, MeasuredNumber, Multiplier}
 
 /// Number of multipliers printed of a point.
 const MOST_SHOWN: usize = 4;
+/// Largest number of digits printed.
+const DIGITS: f64 = 10.0;
 
 /// A branch with what it was asked for.
 pub struct BranchReport<'r> {
@@ -71,25 +73,41 @@ fn key(end: &BranchEnd) -> &'static str {
     }
 }
 
-/// A multiplier in a few digits.
+/// A multiplier in those of a few digits that its error leaves.
 fn brief(one: &Multiplier) -> String {
-    match one.im == 0.0 {
-        true => figures(one.re),
-        false => {
-            format!("{} e^±{}i", figures(one.modulus()), figures(libm::atan2(one.im, one.re)))
-        }
+    if one.im == 0.0 {
+        return known(one.re, one.error);
+    }
+    let modulus = one.modulus();
+    let angle = known(libm::atan2(one.im, one.re), one.error / modulus);
+    format!("{} e^±{angle}i", known(modulus, one.modulus_error))
+}
+
+/// A number in those of ten digits that its error leaves; of none that it leaves, the error.
+fn known(x: f64, error: f64) -> String {
+    match x.abs() > error {
+        true => in_digits(x, libm::log10(x.abs() / error)),
+        false if error == 0.0 => "0".to_string(),
+        false => format!("0 ± {error:.0e}"),
     }
 }
 
 /// A number in ten digits.
 fn figures(x: f64) -> String {
+    in_digits(x, DIGITS)
+}
+
+fn in_digits(x: f64, digits: f64) -> String {
+    let digits = libm::ceil(digits).clamp(1.0, DIGITS);
     match x.abs() {
         0.0 => "0".to_string(),
         size if (1e-3..1e6).contains(&size) => {
-            let whole = libm::floor(libm::log10(size)).max(0.0) as usize;
-            format!("{x:.*}", 9 - whole)
+            let whole = libm::floor(libm::log10(size));
+            // Zeros behind the point of a number below 1 are no digits, and ten places are enough.
+            let places = (digits - 1.0 - whole).clamp(0.0, DIGITS - 1.0 - whole.max(0.0));
+            format!("{x:.*}", places as usize)
         }
-        _ => format!("{x:.6e}"),
+        _ => format!("{x:.*e}", (digits - 1.0).min(6.0) as usize),
     }
 }
 

@@ -32,6 +32,9 @@ struct Sample {
 }
 
 /// Change of the size of a set along its first motion.
+///
+/// Sizes are the largest distances among few samples, and those of chaos fall or rise four times in turn by
+/// chance, so that a change counts if it is still seen when the motion is followed for longer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Change {
     /// It stays, or comes and goes.
@@ -95,26 +98,44 @@ impl Tail {
         !self.rows.is_empty() && after <= CLOSER * before
     }
 
-    /// Change of size from these samples to those of the motion from its end on, in four quarters.
-    pub fn change(&self, after: &Self) -> Change {
-        let count = after.rows.len().max(1) as f64;
-        let width = after.rows.first().map_or(0, |row| row.at.len());
-        let middle =
-            (0..width).map(|k| after.rows.iter().map(|row| row.at[k]).sum::<f64>() / count);
+    /// Change of size through the samples of one motion, the last of which are followed longest. The first
+    /// two show that it may change; whether it goes on, the others.
+    pub fn change(tails: &[&Self]) -> Change {
+        let Some(last) = tails.last() else { return Change::Steady };
+        let count = last.rows.len().max(1) as f64;
+        let width = last.rows.first().map_or(0, |row| row.at.len());
+        let middle = (0..width).map(|k| last.rows.iter().map(|row| row.at[k]).sum::<f64>() / count);
         let centre = Sample { at: middle.collect(), way: Vec::new() };
-        let halves = |tail: &Self| {
+        let halves = |tail: &&Self| {
             let (early, late) = tail.rows.split_at(tail.rows.len() / 2);
             [early, late]
                 .map(|half| half.iter().map(|row| squared(row, &centre)).fold(0.0, f64::max).sqrt())
         };
-        let sizes = [halves(self), halves(after)].concat();
-        let (first, last) = (sizes[0], sizes[3]);
-        let falls = sizes.windows(2).all(|pair| pair[1] < pair[0]);
+        let sizes: Vec<f64> = tails.iter().flat_map(halves).collect();
+        let (first, last) = (sizes[0], sizes[sizes.len() - 1]);
+        let falls = sizes.windows(2).all(|pair| pair[1] < pair[0] || pair[1] <= NONE);
         let rises = sizes.windows(2).all(|pair| pair[1] > pair[0]);
+        // From one look to the next; between the first two no more is asked than in all.
+        let ratios: Vec<f64> = sizes[1..]
+            .iter()
+            .step_by(2)
+            .zip(sizes[3..].iter().step_by(2))
+            .skip(1)
+            .map(|(a, b)| b / a)
+            .collect();
+        let goes_on = |limit: f64| ratios.iter().all(|ratio| *ratio < limit) || last <= NONE;
         match () {
             () if first.max(last) <= NONE => Change::Steady,
-            () if falls && last <= ARRIVING * ARRIVING * first => Change::Vanishes,
-            () if falls && last < STEADY * first || rises && first < STEADY * last => Change::Goes,
+            () if falls && last <= NONE.max(ARRIVING * ARRIVING * first) && goes_on(ARRIVING) => {
+                Change::Vanishes
+            }
+            () if falls && last < STEADY * first && goes_on(STEADY) => Change::Goes,
+            () if rises
+                && first < STEADY * last
+                && ratios.iter().all(|ratio| *ratio * STEADY > 1.0) =>
+            {
+                Change::Goes
+            }
             () => Change::Steady,
         }
     }
@@ -256,7 +277,8 @@ mod tests {
             })
         };
         // The later halves of two motions of 320 samples
-        let change = |size: fn(f64) -> f64| spiral(160.0, size).change(&spiral(480.0, size));
+        let change =
+            |size: fn(f64) -> f64| Tail::change(&[&spiral(160.0, size), &spiral(480.0, size)]);
         assert_eq!(change(|t| t.powf(-0.5)), Change::Goes, "a cubic friction");
         assert_eq!(change(|t| t.powf(-0.25)), Change::Goes, "one of degree 5");
         assert_eq!(change(|t| t.powf(0.5)), Change::Goes, "outwards");
@@ -265,6 +287,26 @@ mod tests {
         assert_eq!(change(|t| 1.0 + (-t / 20.0).exp()), Change::Steady, "the way to a cycle");
         assert_eq!(change(|t| 1.0 + 0.3 * (0.37 * t).sin()), Change::Steady, "a torus");
         assert_eq!(change(|_| 0.0), Change::Steady, "a point");
+    }
+
+    #[test]
+    fn a_change_goes_on_when_it_is_looked_at_for_longer() {
+        let look = |from: f64, length: f64, size: fn(f64) -> f64| {
+            tail(move |t| {
+                let t = from + t * length;
+                [size(t) * t.cos(), size(t) * t.sin()]
+            })
+        };
+        let change = |size: fn(f64) -> f64| {
+            let looks = [(160.0, 1.0), (480.0, 1.0), (960.0, 2.0), (1920.0, 4.0)]
+                .map(|(from, length)| look(from, length, size));
+            Tail::change(&looks.each_ref())
+        };
+        assert_eq!(change(|t| t.powf(-0.25)), Change::Goes);
+        assert_eq!(change(|t| t.powf(0.25)), Change::Goes);
+        assert_eq!(change(|t| (-t / 60.0).exp()), Change::Vanishes);
+        assert_eq!(change(|t| 1e-4 + (-t / 60.0).exp()), Change::Steady, "a small cycle");
+        assert_eq!(change(|t| 1.0 + (-t / 200.0).exp()), Change::Steady, "a slow way to a cycle");
     }
 
     #[test]

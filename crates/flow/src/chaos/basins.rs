@@ -2,6 +2,7 @@
 
 use crate::chaos::attractors::{Change, MOST_SETS, Tail};
 use crate::chaos::late::{Late, LateMotions, LateSamples};
+use crate::chaos::order::Order;
 use crate::chaos::shadow::{ShadowStart, Shadowed};
 use crate::error::FlowError;
 use crate::motion::columns::Columns;
@@ -19,8 +20,8 @@ use liouville::number::rational::Rational;
 const WAVE: usize = 4096;
 /// Smallest width, as a share of the values and of the largest one.
 const NARROW: f64 = 1e-3;
-/// Fraction of the golden section, by which the first motions are spread over the grid.
-const GOLDEN: f64 = 0.618_033_988_749_894_9;
+/// Multiples of the time for which a motion is followed further if its size may change.
+const LONGER: [f64; 2] = [2.0, 4.0];
 /// Logarithm of the contraction over the time from which on a motion tends to a point.
 const CONTRACTION: f64 = 3.0;
 
@@ -150,35 +151,24 @@ pub fn basins(
         return Err(problem);
     }
     let later = motions.follow(&found.later(&parameters), request.time, threads, &|_| {});
-    if !later.iter().any(|late| matches!(late, Err(FlowError::Stopped))) {
+    let is_stopped =
+        |later: &[Late]| later.iter().any(|late| matches!(late, Err(FlowError::Stopped)));
+    if !is_stopped(&later) {
         found.join(later);
+        for longer in LONGER {
+            let doubtful = found.doubtful();
+            let starts = found.later(&parameters);
+            let starts: Vec<_> = doubtful.iter().map(|index| starts[*index].clone()).collect();
+            let later = motions.follow(&starts, longer * request.time, threads, &|_| {});
+            if is_stopped(&later) {
+                break;
+            }
+            found.confirm(&doubtful, later);
+        }
     }
     let shadowed = Shadowed::new(&case.model, &parameters, &[])?;
     let exponents = shadowed.follow(&found.begins(), request.time, threads, &|_| {});
     Ok(found.told(exponents))
-}
-
-/// Order of the motions: the first ones are spread over the grid.
-struct Order {
-    count: usize,
-    stride: usize,
-}
-
-impl Order {
-    fn of(count: usize) -> Self {
-        let first = ((count as f64 * GOLDEN) as usize).max(1);
-        let stride = (first..=first + count).find(|stride| common(*stride, count) == 1);
-        Self { count, stride: stride.unwrap_or(1) }
-    }
-
-    fn place(&self, index: usize) -> usize {
-        (index as u128 * self.stride as u128 % self.count as u128) as usize
-    }
-}
-
-/// Greatest common divisor.
-fn common(a: usize, b: usize) -> usize {
-    if b == 0 { a } else { common(b, a % b) }
 }
 
 /// First motion of a set.
@@ -186,6 +176,8 @@ struct First {
     tail: Tail,
     rows: Vec<Vec<f64>>,
     end: Vec<DoubleDouble>,
+    /// Samples before.
+    past: Vec<Tail>,
     /// Change of its size up to the end, as far as it is known.
     change: Change,
 }
@@ -234,7 +226,8 @@ impl Found {
         match self.sets.iter().position(|known| known.tail.is_with(&tail)) {
             Some(place) => Destiny::Set(place),
             None if self.sets.len() < MOST_SETS => {
-                self.sets.push(First { tail, rows, end, change: Change::Steady });
+                let (past, change) = (Vec::new(), Change::Steady);
+                self.sets.push(First { tail, rows, end, past, change });
                 Destiny::Set(self.sets.len() - 1)
             }
             None => Destiny::Further,
@@ -256,8 +249,8 @@ impl Found {
         for (first, late) in firsts.iter().zip(later) {
             let after = late.map(|LateSamples { rows, ways, end, .. }| {
                 let tail = Tail::new(&rows, &ways, &self.widths);
-                let change = first.tail.change(&tail);
-                First { tail, rows, end, change }
+                let change = Tail::change(&[&first.tail, &tail]);
+                First { tail, rows, end, past: vec![first.tail.clone()], change }
             });
             let stays = |after: &First| after.tail.is_settled() && after.tail.is_with(&first.tail);
             let Some(after) = after.ok().filter(stays) else {
@@ -274,6 +267,28 @@ impl Found {
             if let Destiny::Set(index) = *end {
                 *end = home[index].clone();
             }
+        }
+    }
+
+    /// Sets whose size may change, or whose first motion seems to come to rest.
+    fn doubtful(&self) -> Vec<usize> {
+        let is_doubtful = |first: &First| {
+            first.change != Change::Steady || first.tail.rests() && !first.tail.is_point()
+        };
+        let all = self.sets.iter().enumerate().filter(|(_, first)| is_doubtful(first));
+        all.map(|(index, _)| index).collect()
+    }
+
+    /// Looks at sets again, from samples of their first motions at still later times.
+    fn confirm(&mut self, sets: &[usize], later: Vec<Late>) {
+        for (index, late) in sets.iter().zip(later) {
+            let Ok(LateSamples { rows, ways, end, .. }) = late else { continue };
+            let first = &mut self.sets[*index];
+            let tail = Tail::new(&rows, &ways, &self.widths);
+            first.past.push(std::mem::replace(&mut first.tail, tail));
+            let all: Vec<&Tail> = first.past.iter().chain([&first.tail]).collect();
+            first.change = Tail::change(&all);
+            (first.rows, first.end) = (rows, end);
         }
     }
 
@@ -357,19 +372,4 @@ fn widths<'r>(rows: impl Iterator<Item = &'r Vec<f64>>) -> Vec<f64> {
     let widest = ranges.iter().map(width).fold(0.0, f64::max);
     let floor = if widest > 0.0 { NARROW * widest } else { 1.0 };
     ranges.iter().map(|range| width(range).max(floor)).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn all_motions_have_their_turn() {
-        for count in [1, 2, 3, 10, 64, 2500, 4097] {
-            let order = Order::of(count);
-            let mut places: Vec<usize> = (0..count).map(|index| order.place(index)).collect();
-            places.sort_unstable();
-            assert!(places.into_iter().eq(0..count), "{count}");
-        }
-    }
 }

@@ -3,6 +3,7 @@
 pub(crate) mod attractors;
 pub(crate) mod basins;
 pub(crate) mod late;
+mod order;
 pub(crate) mod plane;
 pub(crate) mod reach;
 pub(crate) mod rotation;

@@ -12,8 +12,8 @@ use liouville::claim::motion::{Change, ClosedOrbit, Neighbourhood, Stability, St
 use liouville::number::rational::Rational;
 use liouville::verdict::Options;
 
-/// Distance from the start within which an orbit is the claimed one, relative to the state; the
-/// same for the period.
+/// Distance from the start within which an orbit is the claimed one, relative to what each component
+/// covers; the same for the period.
 pub(super) const NEAR: f64 = 1e-2;
 
 /// Proves the closed orbit of a claim.
@@ -33,16 +33,35 @@ pub fn by(
     proof: impl FnOnce(&Request<'_>) -> Result<ProvedOrbit, Obstacle>,
 ) -> Result<(MotionJudgement, Option<ProvedOrbit>), FlowError> {
     let mut judgement = MotionJudgement::default();
-    let found = Ground::of(claim.into(), scene, options)?
-        .and_then(|ground| Ok((ground.enclosed(proof)?, ground)));
+    let ground = match Ground::of(claim.into(), scene, options)? {
+        Ok(ground) => ground,
+        Err(reason) => {
+            judgement.leave_open(reason);
+            return Ok((judgement, None));
+        }
+    };
+    let found = ground.enclosed(proof);
     match &found {
-        Ok((found, ground)) => {
-            weigh(claim, found, &mut judgement);
-            doubt(ground, &claim.period, (&found.start, found.period), &mut judgement);
+        Ok(found) => {
+            weigh(claim, &claim.parameters, found, &mut judgement);
+            doubt(&ground, &claim.period, (&found.start, found.period), &mut judgement);
         }
         Err(reason) => judgement.leave_open(reason.clone()),
     }
-    Ok((judgement, found.ok().map(|(found, _)| found)))
+    if !claim.parameters.is_empty() && judgement.is_open() {
+        judgement = refuted_at_centres(claim, &ground).unwrap_or(judgement);
+    }
+    Ok((judgement, found.ok()))
+}
+
+/// Refutation of a claim about boxes of parameters by the values of the case itself, which are among them.
+fn refuted_at_centres(claim: &ClosedOrbit, ground: &Ground<'_>) -> Option<MotionJudgement> {
+    let ground = ground.at_centres();
+    let found = ground.enclosed(prove).ok()?;
+    let mut judgement = MotionJudgement::default();
+    weigh(claim, &[], &found, &mut judgement);
+    doubt(&ground, &claim.period, (&found.start, found.period), &mut judgement);
+    judgement.is_refuted().then_some(judgement)
 }
 
 /// Leaves a claim open that is wrong of the orbit found, unless no other one with a period as stated is
@@ -77,8 +96,8 @@ pub(super) fn far(
     }
     (moved.is_nan() || moved > NEAR).then(|| {
         format!(
-            "the {what} that is found has period {:.10}, and lies at a distance of {moved:.1e} of the \
-             state: start nearer to it",
+            "the {what} that is found has period {:.10}, and a component begins {moved:.1e} of what it \
+             covers away from the start: start nearer to it",
             period.mid
         )
     })
@@ -117,14 +136,21 @@ pub fn theorem_about(
     let found = ground.enclosed(prove)?;
     if found.moved > NEAR {
         let far = printed_bound(found.moved);
-        return Err(format!("the closed orbit that is proved lies at a distance of {far}"));
+        return Err(format!(
+            "the closed orbit that is proved begins {far} of what a component covers away"
+        ));
     }
     let changes = found.volume.is_positive() || (-found.volume).is_positive();
     Ok(theorem(&found, changes, stability(&found), &[]))
 }
 
 /// Compares the orbit that was found with the claim, which is about it: another may lie next to it.
-fn weigh(claim: &ClosedOrbit, found: &ProvedOrbit, judgement: &mut MotionJudgement) {
+fn weigh(
+    claim: &ClosedOrbit,
+    varied: &[Neighbourhood],
+    found: &ProvedOrbit,
+    judgement: &mut MotionJudgement,
+) {
     if let Some(reason) = far("closed orbit", found.moved, (&claim.period, found.period)) {
         judgement.leave_open(reason);
         return;
@@ -180,7 +206,7 @@ fn weigh(claim: &ClosedOrbit, found: &ProvedOrbit, judgement: &mut MotionJudgeme
             }
         }
     }
-    judgement.theorem = Some(theorem(found, changes, seen, &claim.parameters));
+    judgement.theorem = Some(theorem(found, changes, seen, varied));
 }
 
 /// Stability by the enclosed multipliers, one or two of them. That their moduli are 1 is not proved.

@@ -121,6 +121,17 @@ impl<'g> Ground<'g> {
         })
     }
 
+    /// The same for the values of the parameters in the middle of their ranges alone.
+    pub fn at_centres(&self) -> Ground<'_> {
+        Ground {
+            case: Cow::Borrowed(&self.case),
+            start: self.start.clone(),
+            integrals: Cow::Borrowed(&self.integrals),
+            loose: Vec::new(),
+            ..*self
+        }
+    }
+
     /// Encloses the orbit by a proof, and checks that it lies where its integrals are proved.
     pub fn enclosed(
         &self,

@@ -68,6 +68,11 @@ impl MotionJudgement {
         !self.against.is_empty()
     }
 
+    /// Whether the claim is open.
+    pub fn is_open(&self) -> bool {
+        self.against.is_empty() && !self.open.is_empty()
+    }
+
     /// Leaves the claim open in place of all reasons against it.
     pub fn withdraw(&mut self, reason: String) {
         self.against.clear();

@@ -55,7 +55,7 @@ pub fn judge(claim: &Reaches, scene: &FollowedCase<'_>) -> Result<MotionJudgemen
             let digits = reached.state.iter().map(|x| x.rad).fold(0.0, f64::max);
             judgement.theorem = Some(format!(
                 "the state at t = {} is enclosed within {digits:.1e} by {steps} Taylor steps",
-                claim.time
+                claim.time_text
             ));
         }
         Err(Obstacle::Motion(problem)) => return Err(problem),

@@ -13,8 +13,8 @@
 
 use crate::taylor::form::Row;
 use crate::taylor::number::SeriesNumber;
+pub(crate) use crate::taylor::placed::PlacedRule;
 use crate::taylor::program::{RowInstruction, Rule, TaylorProgram};
-use crate::taylor::saturating::Saturating;
 use liouville::number::rational::Rational;
 
 /// Bytes of a cache line; order 1 of each row is aligned to it.
@@ -129,65 +129,6 @@ pub(crate) enum OrderEffect {
     Free,
     /// Division of the inner sum by n.
     Divides,
-}
-
-/// A rule with rows replaced by their places in memory.
-pub(crate) enum PlacedRule<T> {
-    Sum,
-    Theta,
-    Recip(Place),
-    Sqrt(Place),
-    Exp(Place),
-    Ln(Place),
-    Sin {
-        x: Place,
-        cosine: Place,
-    },
-    Cos {
-        x: Place,
-        sine: Place,
-    },
-    Atan {
-        x: Place,
-        square: Place,
-    },
-    Power {
-        x: Place,
-        exponent: Rational,
-        factor: T,
-    },
-    Saturating {
-        function: Saturating,
-        x: Place,
-        slope: Place,
-    },
-    /// The constant of the operation, which is the sign of x.
-    Sign(Place),
-    /// 1 where |x| is below half of the number, and 0 elsewhere.
-    Near(Place, f64),
-}
-
-impl<T> PlacedRule<T> {
-    /// Whether the operation is a function with values everywhere, or one without, and no sum.
-    pub(crate) fn is_function(&self, is_entire: bool) -> bool {
-        let has_poles = matches!(
-            self,
-            PlacedRule::Recip(_)
-                | PlacedRule::Sqrt(_)
-                | PlacedRule::Ln(_)
-                | PlacedRule::Power { .. }
-        );
-        let is_form = matches!(
-            self,
-            PlacedRule::Sum | PlacedRule::Theta | PlacedRule::Sign(_) | PlacedRule::Near(..)
-        );
-        !is_form && has_poles != is_entire
-    }
-
-    /// Whether the operation is a sum of products.
-    pub(crate) fn is_sum(&self) -> bool {
-        matches!(self, PlacedRule::Sum)
-    }
 }
 
 /// Placement of rows and their copies in memory.
@@ -337,7 +278,10 @@ impl<T: SeriesNumber> BoundProgram<T> {
                 (OrderEffect::Divides, PlacedRule::Saturating { function, x, slope })
             }
             Rule::Sign(x) => (OrderEffect::Free, PlacedRule::Sign(at(x))),
+            Rule::Void(x) => (OrderEffect::Free, PlacedRule::Void(at(x))),
             Rule::Near(x, reach) => (OrderEffect::Free, PlacedRule::Near(at(x), *reach)),
+            // Enclosures alone have these; a number has no value there.
+            Rule::Choice(_) | Rule::Bounded(..) => (OrderEffect::Free, PlacedRule::Sum),
             Rule::Power { x, exponent } => {
                 let factor = T::rational(exponent);
                 (
@@ -357,7 +301,11 @@ impl<T: SeriesNumber> BoundProgram<T> {
         if !instruction.form.products.is_empty() {
             self.counts.push(instruction.form.products.len() as u32);
         }
-        let none = if matches!(rule, PlacedRule::Sign(_)) { T::ONE } else { T::ZERO };
+        let none = match (&rule, &instruction.rule) {
+            (PlacedRule::Sign(_), _) => T::ONE,
+            (_, Rule::Choice(_) | Rule::Bounded(..)) => T::float(f64::NAN),
+            _ => T::ZERO,
+        };
         let constant = instruction.form.constant.as_ref().map_or(none, T::rational);
         self.operations.push(InitialOperation { rule, constant, factors, terms });
         let copies = self.copies_of(layout, instruction.out);

@@ -2,9 +2,11 @@
 //! exactly.
 
 mod limits;
+pub(crate) mod proved;
 mod simpler;
 
 use crate::error::FlowError;
+use crate::taylor::compile::proved::PowersNear;
 use crate::taylor::form::{BilinearForm, Row};
 use crate::taylor::program::{RowInstruction, Rule, TaylorProgram};
 use crate::taylor::quotients::Needed;
@@ -63,6 +65,10 @@ impl TaylorProgram {
             thetas: Vec::new(),
             signs: Vec::new(),
             saturating: Vec::new(),
+            is_exact: constants.is_none(),
+            moduli: if constants.is_some() { with_moduli(graph) } else { Vec::new() },
+            voids: Vec::new(),
+            series: Vec::new(),
         };
         for (place, step) in graph.steps().enumerate().filter(|(place, _)| reached[*place]) {
             let form = match (step, constants.and_then(|constants| constants[place])) {
@@ -128,6 +134,16 @@ fn constants(graph: &Graph) -> Vec<Option<DoubleDouble>> {
     values
 }
 
+/// Whether each step of a graph contains a modulus.
+fn with_moduli(graph: &Graph) -> Vec<bool> {
+    let mut found: Vec<bool> = Vec::with_capacity(graph.len());
+    for step in graph.steps() {
+        let is_modulus = matches!(step, Step::Unary(UnaryFunction::Abs, _));
+        found.push(is_modulus || step.arguments().any(|argument| found[argument]));
+    }
+    found
+}
+
 struct Compiler {
     uses: Vec<usize>,
     forms: Vec<Option<BilinearForm>>,
@@ -143,6 +159,15 @@ struct Compiler {
     signs: Vec<(Row, Row)>,
     /// Functions that tend to constants: argument, function.
     saturating: Vec<(Saturating, Row, Row)>,
+    /// Steps that contain moduli.
+    moduli: Vec<bool>,
+    /// Bases of roots that contain moduli: rows, the same with 1 in place of what is not positive, and
+    /// rows that are 0 there and 1 elsewhere.
+    voids: Vec<(Row, Row, Row)>,
+    /// Whether nothing may be rounded.
+    is_exact: bool,
+    /// Powers of the variables of proved series, made once.
+    series: Vec<PowersNear>,
 }
 
 impl Compiler {
@@ -185,13 +210,27 @@ impl Compiler {
                 let (factor, row) = self.reciprocal(a)?;
                 BilinearForm::of_row(factor, row)
             }
+            Step::Unary(UnaryFunction::Sqrt, a) if self.may_be_void(a) => {
+                let (x, on) = self.base(a);
+                let root = self.function(UnaryFunction::Sqrt, x)?;
+                Self::product(on, root)
+            }
             Step::Unary(function, a) => {
                 let x = self.row(a);
                 let row = self.function(function, x)?;
                 BilinearForm::of_row(Self::one(), row)
             }
             Step::Power(a, exponent) => {
-                let x = self.row(a);
+                // Of others 0 has no power, as written.
+                let is_half = (exponent * &Rational::from(2)).to_integer().is_some();
+                let may_be_void = is_half && !exponent.is_negative() && self.may_be_void(a);
+                let (x, on) = match may_be_void {
+                    true => {
+                        let (x, on) = self.base(a);
+                        (x, Some(on))
+                    }
+                    false => (self.row(a), None),
+                };
                 let theta = self.theta(x);
                 // The row itself, and its θ, which comes after it.
                 let (out, own_theta) = (self.next, self.next + 1);
@@ -200,7 +239,10 @@ impl Compiler {
                 let rule = Rule::Power { x, exponent: exponent.clone() };
                 let row = self.emit(rule, form);
                 self.theta(row);
-                BilinearForm::of_row(Self::one(), row)
+                match on {
+                    Some(on) => Self::product(on, row),
+                    None => BilinearForm::of_row(Self::one(), row),
+                }
             }
         })
     }

@@ -175,7 +175,9 @@ impl<T: SeriesNumber> BoundProgram<T> {
                     let factor = T::float(function.slope());
                     (factor, factor * at(slope))
                 }
-                PlacedRule::Sign(_) | PlacedRule::Near(..) => (T::ZERO, T::ZERO),
+                PlacedRule::Sign(_) | PlacedRule::Near(..) | PlacedRule::Void(_) => {
+                    (T::ZERO, T::ZERO)
+                }
                 PlacedRule::Power { x, factor, .. } => (at(x).recip(), *factor * z * at(x).recip()),
             };
             finish.scale = scale;

@@ -6,7 +6,7 @@ use liouville::number::rational::Rational;
 pub type Row = usize;
 
 /// A form constant + Σ c x + Σ c x y over rows x, y.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct BilinearForm {
     pub constant: Option<Rational>,
     pub linear: Vec<(Rational, Row)>,

@@ -6,6 +6,7 @@
 
 use std::collections::BTreeMap;
 
+use crate::taylor::remainder::{self, RADII, Rest, bounds};
 use liouville::number::UnaryFunction;
 use liouville::number::rational::Rational;
 
@@ -76,10 +77,54 @@ impl Affine {
     }
 }
 
+/// A series in v: its first coefficients, and bounds of the norms of what is left out.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Series {
+    pub(super) first: Vec<Rational>,
+    pub(super) rest: Rest,
+}
+
+impl Series {
+    fn polynomial(mut first: Vec<Rational>) -> Self {
+        first.resize(LENGTH, number(0));
+        Self { first, rest: [0.0; RADII] }
+    }
+
+    fn parts(&self) -> (&[Rational], &Rest) {
+        (&self.first, &self.rest)
+    }
+
+    fn product(&self, other: &Self) -> Self {
+        Self {
+            first: multiplied(&self.first, &other.first),
+            rest: remainder::of_product(self.parts(), other.parts()),
+        }
+    }
+
+    /// The series over v^n, whose first n coefficients are 0.
+    fn lowered(&self, n: usize) -> Self {
+        let mut first = self.first[n..].to_vec();
+        first.resize(LENGTH, number(0));
+        let by = |index: usize| libm::pow(remainder::radius(index), n as f64);
+        Self { first, rest: bounds(|index| self.rest[index] / by(index)) }
+    }
+
+    fn reciprocal(&self) -> Option<Self> {
+        let scale = self.first[0].recip()?;
+        let mut first: Vec<Rational> = vec![scale.clone()];
+        for n in 1..LENGTH {
+            let sum = (0..n).fold(number(0), |sum, k| &sum + &(&first[k] * &self.first[n - k]));
+            first.push(-&(&sum * &scale));
+        }
+        let rest = remainder::of_reciprocal(&first, self.parts());
+        Some(Self { first, rest })
+    }
+}
+
 /// A series Σ m_j p_j(v).
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Germ {
-    pub(super) terms: BTreeMap<Monomial, Vec<Rational>>,
+    pub(super) terms: BTreeMap<Monomial, Series>,
 }
 
 impl Germ {
@@ -87,8 +132,11 @@ impl Germ {
         Self::of_series(vec![value])
     }
 
-    fn of_series(mut series: Vec<Rational>) -> Self {
-        series.resize(LENGTH, number(0));
+    fn of_series(first: Vec<Rational>) -> Self {
+        Self::of(Series::polynomial(first))
+    }
+
+    fn of(series: Series) -> Self {
         Self { terms: BTreeMap::from([(Vec::new(), series)]) }
     }
 
@@ -98,14 +146,12 @@ impl Germ {
     }
 
     pub(super) fn unknown(place: usize) -> Self {
-        let mut germ = Self::of_constant(number(1));
-        let series = germ.terms.remove(&Vec::new()).unwrap_or_default();
-        germ.terms.insert(vec![(place, 1)], series);
-        germ
+        let one = Series::polynomial(vec![number(1)]);
+        Self { terms: BTreeMap::from([(vec![(place, 1)], one)]) }
     }
 
     /// The series, if it has no unknowns.
-    pub(super) fn plain(&self) -> Option<&[Rational]> {
+    pub(super) fn plain(&self) -> Option<&Series> {
         match self.terms.first_key_value() {
             Some((monomial, series)) if self.terms.len() == 1 && monomial.is_empty() => {
                 Some(series)
@@ -116,18 +162,31 @@ impl Germ {
 
     /// Number of leading coefficients that are 0 in all terms.
     pub(super) fn order(&self) -> usize {
-        let first = |series: &Vec<Rational>| series.iter().position(|x| !x.is_zero());
+        let first = |series: &Series| series.first.iter().position(|x| !x.is_zero());
         self.terms.values().map(|series| first(series).unwrap_or(LENGTH)).min().unwrap_or(LENGTH)
     }
 
     pub(super) fn plus(mut self, other: &Self, factor: &Rational) -> Option<Self> {
         for (monomial, series) in &other.terms {
             let own = self.terms.entry(monomial.clone());
-            let own = own.or_insert_with(|| vec![number(0); LENGTH]);
-            own.iter_mut().zip(series).for_each(|(x, y)| *x = &*x + &(y * factor));
+            let own = own.or_insert_with(|| Series::polynomial(Vec::new()));
+            let pairs = own.first.iter_mut().zip(&series.first);
+            pairs.for_each(|(x, y)| *x = &*x + &(y * factor));
+            let size = factor.to_f64().0.abs();
+            // What is exact remains so.
+            if series.rest != [0.0; RADII] {
+                own.rest = bounds(|index| own.rest[index] + size * series.rest[index]);
+            }
         }
         if self.terms.len() > 1 {
-            self.terms.retain(|_, series| series.iter().any(|x| !x.is_zero()));
+            let is_zero = |own: &Series| own.first.iter().all(Rational::is_zero);
+            let is_exact = |own: &Series| !is_zero(own) || own.rest.iter().all(|rest| *rest == 0.0);
+            let is_bounded = self.terms.values().all(is_exact);
+            self.terms.retain(|_, series| !is_zero(series));
+            if !is_bounded {
+                // What cancels in all coefficients known is no longer bounded.
+                self.terms.values_mut().for_each(|own| own.rest = [f64::INFINITY; RADII]);
+            }
         }
         self.bounded()
     }
@@ -138,7 +197,7 @@ impl Germ {
             for (b, y) in &other.terms {
                 let mut powers: BTreeMap<usize, u32> = a.iter().copied().collect();
                 b.iter().for_each(|(place, power)| *powers.entry(*place).or_default() += power);
-                let term = BTreeMap::from([(powers.into_iter().collect(), multiplied(x, y))]);
+                let term = BTreeMap::from([(powers.into_iter().collect(), x.product(y))]);
                 all = all.plus(&Self { terms: term }, &number(1))?;
             }
         }
@@ -151,26 +210,17 @@ impl Germ {
     }
 
     /// The quotient by a series whose leading coefficients, as many as there are of these, are 0 too.
-    pub(super) fn divided(&self, divisor: &[Rational], zeros: usize) -> Option<Self> {
-        let first = divisor.get(zeros)?.recip()?;
-        let divide = |series: &Vec<Rational>| {
-            let mut found: Vec<Rational> = Vec::new();
-            for n in 0..LENGTH - zeros {
-                let known = (0..n).fold(series[n + zeros].clone(), |rest, k| {
-                    &rest - &(&found[k] * &divisor[n + zeros - k])
-                });
-                found.push(&known * &first);
-            }
-            found.resize(LENGTH, number(0));
-            found
-        };
+    pub(super) fn divided(&self, divisor: &Series, zeros: usize) -> Option<Self> {
+        let inverse = divisor.lowered(zeros).reciprocal()?;
+        let divide = |own: &Series| own.lowered(zeros).product(&inverse);
         let terms = self.terms.iter().map(|(monomial, series)| (monomial.clone(), divide(series)));
         Self { terms: terms.collect() }.bounded()
     }
 
     /// A function of the germ, where its value at v = 0 is rational.
     pub(super) fn apply(&self, function: UnaryFunction) -> Option<Self> {
-        let own = self.plain()?;
+        let argument = self.plain()?;
+        let own = &argument.first;
         let rate = |n: usize| &number(n) * &own[n];
         // n z_n = Σ k u_k f_(n − k)
         let next = |f: &[Rational], n: usize| {
@@ -190,16 +240,17 @@ impl Germ {
             UnaryFunction::Exp => {
                 let mut z = vec![number(1)];
                 (1..LENGTH).for_each(|n| z.push(next(&z, n)));
-                z
+                let rest = remainder::of_exponential([&z, &z], argument.parts());
+                Series { first: z, rest }
             }
             UnaryFunction::Ln => {
-                let slope = Self::of_constant(number(1)).divided(own, 0)?;
-                let slope = slope.plain()?.to_vec();
+                let inverse = argument.reciprocal()?;
                 let mut z = vec![number(0)];
-                (1..LENGTH).for_each(|n| z.push(next(&slope, n)));
-                z
+                (1..LENGTH).for_each(|n| z.push(next(&inverse.first, n)));
+                let rest = remainder::of_logarithm(&z, inverse.parts(), argument.parts());
+                Series { first: z, rest }
             }
-            UnaryFunction::Recip => return Self::of_constant(number(1)).divided(own, 0),
+            UnaryFunction::Recip => argument.reciprocal()?,
             _ => {
                 let (mut sine, mut cosine) = (vec![number(0)], vec![number(1)]);
                 for n in 1..LENGTH {
@@ -207,14 +258,16 @@ impl Germ {
                     sine.push(s);
                     cosine.push(c);
                 }
-                if function == UnaryFunction::Sin { sine } else { cosine }
+                let rest = remainder::of_exponential([&sine, &cosine], argument.parts());
+                let first = if function == UnaryFunction::Sin { sine } else { cosine };
+                Series { first, rest }
             }
         };
-        Self::of_series(found).bounded()
+        Self::of(found).bounded()
     }
 
     fn bounded(self) -> Option<Self> {
-        let is_small = |series: &Vec<Rational>| series.iter().all(|x| x.bits() <= MOST_BITS);
+        let is_small = |own: &Series| own.first.iter().all(|x| x.bits() <= MOST_BITS);
         (self.terms.len() <= MOST_TERMS && self.terms.values().all(is_small)).then_some(self)
     }
 }
@@ -229,7 +282,7 @@ mod tests {
     use super::*;
 
     fn coefficients(germ: &Germ) -> Vec<Rational> {
-        germ.plain().expect("no unknowns")[..5].to_vec()
+        germ.plain().expect("no unknowns").first[..5].to_vec()
     }
 
     #[test]

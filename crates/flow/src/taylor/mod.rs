@@ -1,6 +1,7 @@
 //! Taylor series of a recorded field, and steps by them.
 
 pub(crate) mod batch;
+mod bridge;
 pub(crate) mod code;
 pub(crate) mod compile;
 pub(crate) mod defect;
@@ -15,9 +16,11 @@ pub(crate) mod machine;
 pub(crate) mod merge;
 pub(crate) mod number;
 pub(crate) mod pace;
+mod placed;
 pub(crate) mod plain;
 pub(crate) mod program;
 pub(crate) mod quotients;
+mod remainder;
 mod removable;
 pub(crate) mod resolve;
 pub(crate) mod rounding;

@@ -41,6 +41,7 @@ impl<T: SeriesNumber> BoundProgram<T> {
                 PlacedRule::Saturating { function, x, .. } => function.at(at(x)),
                 PlacedRule::Sign(_) => operation.constant,
                 PlacedRule::Near(x, reach) => near(at(x), *reach),
+                PlacedRule::Void(x) => void(at(x)),
             };
             // Order 0 does not enter the inner sums: behind order 1 there are zeros.
             memory[finish.place as usize] = value;
@@ -52,6 +53,15 @@ impl<T: SeriesNumber> BoundProgram<T> {
 #[inline(always)]
 fn near<T: SeriesNumber>(x: T, reach: f64) -> T {
     T::from_lanes(|lane| match x.lane(lane).leading().abs() < 0.5 * reach {
+        true => T::One::ONE,
+        false => T::One::ZERO,
+    })
+}
+
+/// 1 in the lanes in which x is not positive, and 0 in the others.
+#[inline(always)]
+fn void<T: SeriesNumber>(x: T) -> T {
+    T::from_lanes(|lane| match x.lane(lane).leading() <= 0.0 {
         true => T::One::ONE,
         false => T::One::ZERO,
     })
@@ -160,7 +170,10 @@ impl<T: SeriesNumber> Series<T> {
         };
         match &operation.rule {
             PlacedRule::Sum => self.sum_error(operation, lane, at),
-            PlacedRule::Theta | PlacedRule::Sign(_) | PlacedRule::Near(..) => 0.0,
+            PlacedRule::Theta
+            | PlacedRule::Sign(_)
+            | PlacedRule::Near(..)
+            | PlacedRule::Void(_) => 0.0,
             PlacedRule::Recip(x) => by(*x, &|_| own * own),
             PlacedRule::Sqrt(x) => by(*x, &|_| 0.5 / own),
             PlacedRule::Exp(x) => by(*x, &|_| own),

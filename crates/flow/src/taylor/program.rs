@@ -14,7 +14,7 @@
 //! z = tanh x    n z_n = θx_n w_0 + Σ θx_k w_{n-k}, w = 1/cosh² x; the same with -2 z w for w
 //! z = 1/(1+eˣ)  n z_n = -θx_n v_0 - Σ θx_k v_{n-k}, v = eˣ z²; the same with v - 2 v z for v
 //! z = sign x    z_n = 0; |x| = z x
-//! z = near x    z_n = 0
+//! z = near x    z_n = 0; the same for void x
 //! z = x^q       n x_0 z_n = q θx_n z_0 + Σ (q θx_k z_{n-k} - θz_k x_{n-k})
 //! ```
 //!
@@ -65,19 +65,28 @@ pub enum Rule {
     Sign(Row),
     /// 1 where |x| is below half of the number, and 0 elsewhere.
     Near(Row, f64),
+    /// 1 where x is not positive, and 0 elsewhere.
+    Void(Row),
+    /// The second row where the first is 1, and the third where it is 0; in exact programs alone.
+    Choice([Row; 3]),
+    /// A function Σ a_k x^k of which it is known that Σ |a_k| R^k ≤ c, with R and c; in exact programs
+    /// alone.
+    Bounded(Row, [f64; 2]),
 }
 
 impl Rule {
     /// Row that the rule is a function of; `None` for a sum, which has several.
     pub(crate) fn argument(&self) -> Option<Row> {
         match self {
-            Rule::Sum => None,
-            Rule::Theta(x)
+            Rule::Sum | Rule::Choice(_) => None,
+            Rule::Bounded(x, _)
+            | Rule::Theta(x)
             | Rule::Recip(x)
             | Rule::Sqrt(x)
             | Rule::Exp(x)
             | Rule::Ln(x)
             | Rule::Sign(x)
+            | Rule::Void(x)
             | Rule::Near(x, _) => Some(*x),
             Rule::Sin { x, .. }
             | Rule::Cos { x, .. }

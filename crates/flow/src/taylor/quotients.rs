@@ -18,12 +18,15 @@ const MOST_FACTORS: usize = 64;
 pub(super) struct Product {
     pub(super) coefficient: Rational,
     pub(super) factors: Vec<(usize, i32)>,
+    /// Whether a factor is that of a divisor too, and is left out.
+    cancels: bool,
 }
 
 impl Product {
     /// Writes the step at a place as a product of steps that are none.
     fn of(graph: &Graph, place: usize) -> Option<Self> {
-        let mut product = Self { coefficient: Rational::from(1), factors: Vec::new() };
+        let mut product =
+            Self { coefficient: Rational::from(1), factors: Vec::new(), cancels: false };
         product.multiply(graph, place, 1)?;
         Some(product)
     }
@@ -50,7 +53,10 @@ impl Product {
 
     fn add(&mut self, place: usize, power: i32) {
         match self.factors.iter_mut().find(|(own, _)| *own == place) {
-            Some((_, own)) => *own += power,
+            Some((_, own)) => {
+                self.cancels |= (*own > 0) != (power > 0);
+                *own += power;
+            }
             None => self.factors.push((place, power)),
         }
         self.factors.retain(|(_, power)| *power != 0);
@@ -98,19 +104,33 @@ pub(super) struct Simpler {
 }
 
 impl Simpler {
-    /// Replaces the quotients in the product at a place. `None` where there are none.
-    pub(super) fn of(graph: &Graph, place: usize) -> Option<Self> {
+    /// The product at a place, before anything is replaced.
+    fn whole(graph: &Graph, place: usize) -> Option<Self> {
         let is_product = matches!(
             graph.step(place),
             Step::Binary(BinaryOperation::Mul, ..) | Step::Unary(UnaryFunction::Recip, _)
         );
         let rest = Product::of(graph, place).filter(|_| is_product)?;
-        let (factors, limits) = (Vec::new(), Vec::new());
-        let mut simpler = Self { rest, factors, limits, jumps: false };
+        Some(Self { rest, factors: Vec::new(), limits: Vec::new(), jumps: false })
+    }
+
+    /// Replaces quotients whose limits are proved. Nothing may cancel, for it is as written that the
+    /// field has a value.
+    fn proved(graph: &Graph, place: usize) -> Option<Self> {
+        let mut simpler = Self::whole(graph, place).filter(|own| !own.rest.cancels)?;
+        simpler.limits(graph);
+        let is_proved = simpler.limits.iter().all(|own| own.proved.is_some());
+        (is_proved && !simpler.limits.is_empty()).then_some(simpler)
+    }
+
+    /// Replaces the quotients in the product at a place. `None` where there are none.
+    pub(super) fn of(graph: &Graph, place: usize) -> Option<Self> {
+        let mut simpler = Self::whole(graph, place)?;
         simpler.signs(graph)?;
+        let has_roots = simpler.roots(graph)?;
         simpler.limits(graph);
         simpler.saturating(graph);
-        let is_simpler = !simpler.factors.is_empty() || !simpler.limits.is_empty();
+        let is_simpler = has_roots || !simpler.factors.is_empty() || !simpler.limits.is_empty();
         is_simpler.then_some(simpler)
     }
 
@@ -139,6 +159,36 @@ impl Simpler {
             }
         }
         Some(())
+    }
+
+    /// Writes x/√x as √x where x contains a modulus: max(x, 0) is 0 for a while. Returns whether there is
+    /// one.
+    fn roots(&mut self, graph: &Graph) -> Option<bool> {
+        let (rest, mut found) = (&mut self.rest, false);
+        for (root, power) in rest.factors.clone().into_iter().filter(|(_, power)| *power < 0) {
+            let Step::Unary(UnaryFunction::Sqrt, a) = graph.step(root) else { continue };
+            let argument = Product::of(graph, a)?;
+            if !graph
+                .reached_from(&[a])
+                .iter()
+                .enumerate()
+                .any(|(place, is_part)| *is_part && modulus_at(graph, place).is_some())
+            {
+                continue;
+            }
+            for _ in 0..power.unsigned_abs() {
+                if rest.power(root) >= 0 || !argument.is_in(rest, 1) {
+                    break;
+                }
+                rest.add(root, 2);
+                for (factor, own) in &argument.factors {
+                    rest.add(*factor, -own);
+                }
+                rest.coefficient = &rest.coefficient * &argument.coefficient.recip()?;
+                found = true;
+            }
+        }
+        Some(found)
     }
 
     /// Takes out quotients that have limits where their divisors are 0.
@@ -220,14 +270,33 @@ pub(super) struct Needed {
 }
 
 impl Needed {
-    /// Finds what these values need as written.
+    /// Finds what these values need as written, but for quotients whose limits are proved.
     pub(super) fn exactly(graph: &Graph, wanted: &[usize]) -> Self {
-        Self { places: graph.reached_from(wanted), simpler: vec![None; graph.len()] }
+        Self::with(graph, wanted, Simpler::proved, |_| None)
     }
 
     /// Finds what these values need where quotients have rules of their own.
     pub(super) fn by(graph: &Graph, wanted: &[usize]) -> Self {
-        let Self { mut places, mut simpler } = Self::exactly(graph, wanted);
+        let argument = |place: usize| {
+            // 1/|x| is made from 1/x.
+            let modulus = match graph.step(place) {
+                Step::Unary(UnaryFunction::Recip, a) => modulus_at(graph, a),
+                _ => None,
+            };
+            let sine = hyperbolic(graph, place).filter(|(is_sine, _)| *is_sine);
+            modulus.or(sine.map(|(_, [u, _])| u)).or(area(graph, place).map(|own| own.1))
+        };
+        Self::with(graph, wanted, Simpler::of, argument)
+    }
+
+    /// The same with the products that `simplify` knows, and the steps that need one argument alone.
+    fn with(
+        graph: &Graph,
+        wanted: &[usize],
+        simplify: impl Fn(&Graph, usize) -> Option<Simpler>,
+        argument: impl Fn(usize) -> Option<usize>,
+    ) -> Self {
+        let (mut places, mut simpler) = (graph.reached_from(wanted), vec![None; graph.len()]);
         let is_part = |place: usize| {
             let step = graph.step(place);
             let is_algebraic = |function| {
@@ -244,25 +313,16 @@ impl Needed {
             if !places[place] {
                 continue;
             }
-            simpler[place] = Simpler::of(graph, place);
+            simpler[place] = simplify(graph, place);
             match &simpler[place] {
                 Some(own) => own.arguments().for_each(|argument| places[argument] = true),
-                None => {
-                    let own = graph.step(place);
-                    // 1/|x| is made from 1/x.
-                    let modulus = match own {
-                        Step::Unary(UnaryFunction::Recip, a) => modulus_at(graph, a),
-                        _ => None,
-                    };
-                    let sine = hyperbolic(graph, place).filter(|(is_sine, _)| *is_sine);
-                    match modulus
-                        .or(sine.map(|(_, [u, _])| u))
-                        .or(area(graph, place).map(|own| own.1))
-                    {
-                        Some(argument) => places[argument] = true,
-                        None => own.arguments().for_each(|argument| places[argument] = true),
+                None => match argument(place) {
+                    Some(argument) => places[argument] = true,
+                    None => {
+                        let own = graph.step(place);
+                        own.arguments().for_each(|argument| places[argument] = true);
                     }
-                }
+                },
             }
         }
         Self { places, simpler }

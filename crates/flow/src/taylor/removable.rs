@@ -5,12 +5,15 @@
 //! there. Only quotients with functions count: what is rational as written, like x²/x, has no value where
 //! its divisor is 0.
 
+mod proved;
+
 use std::collections::BTreeMap;
 
 use crate::taylor::germ::{Affine, Germ, LENGTH, Monomial};
 use liouville::graph::{Graph, Step};
 use liouville::number::rational::Rational;
 use liouville::number::{BinaryOperation, UnaryFunction};
+pub(in crate::taylor) use proved::ProvedSeries;
 
 /// Number of coefficients of the series that stand for a quotient.
 const COUNT: usize = 30;
@@ -38,6 +41,8 @@ pub(super) struct Removable {
     /// Its series in v up to `reach`, each with the unknowns that it is multiplied by.
     pub(super) series: Vec<(Monomial, Vec<Rational>)>,
     pub(super) reach: f64,
+    /// What is proved of the series, if it is bounded.
+    pub(super) proved: Option<ProvedSeries>,
 }
 
 impl Removable {
@@ -60,7 +65,8 @@ impl Removable {
         if !divisors.into_iter().any(|(place, _)| may_vanish(graph, *place, &variable)) {
             return None;
         }
-        let (mut dividend, mut zeros) = (Germ::of_constant(Rational::from(1)), 0i64);
+        // Coefficients at the end are lost with each factor v of a divisor.
+        let (mut dividend, mut zeros, mut lost) = (Germ::of_constant(Rational::from(1)), 0i64, 0);
         let mut own = Vec::new();
         let mut has_function = false;
         for power_is_positive in [true, false] {
@@ -84,6 +90,7 @@ impl Removable {
                             return None;
                         }
                         dividend = dividend.divided(divisor, order)?;
+                        lost += order;
                     }
                 }
             }
@@ -92,18 +99,19 @@ impl Removable {
         if !has_function || !has_divisor || zeros < 0 {
             return None;
         }
+        let proved = (lost <= LENGTH - COUNT).then(|| ProvedSeries::of(&dividend)).flatten();
         let series: Vec<(Monomial, Vec<Rational>)> = dividend
             .terms
             .into_iter()
             .map(|(monomial, mut series)| {
-                series.truncate(COUNT);
-                (monomial, series)
+                series.first.truncate(COUNT);
+                (monomial, series.first)
             })
             .collect();
         let reach = (0..MOST_HALVES).map(|n| libm::ldexp(1.0, -n));
         let reach =
             reach.into_iter().find(|reach| series.iter().all(|(_, own)| ends(own, *reach)))?;
-        Some(Self { variable, factors: own, series, reach })
+        Some(Self { variable, factors: own, series, reach, proved })
     }
 
     /// Places on which the quotient depends.
@@ -334,6 +342,19 @@ mod tests {
         assert!((value, slope) == (1.0, -0.5));
         let (value, slope) = first(found(|x| [x.ln(), x - number(1, 1)]));
         assert!((value, slope) == (1.0, -0.5), "{value} {slope}");
+    }
+
+    #[test]
+    fn bounds_hold_what_a_series_leaves_out() {
+        // u/(e^u − 1) = Σ B_k/k! u^k with the poles ±2πi: |B_k/k!| ≈ 2/(2π)^k for even k
+        let own = found(|x| [x, x.exp() - number(1, 1)]).expect("a limit").proved.expect("bounds");
+        assert!(own.reach > 1.0 && own.radius < std::f64::consts::TAU, "{own:?}");
+        let truth: f64 = (0..200)
+            .map(|k| 2.0 * libm::pow(std::f64::consts::TAU, -30.0 - 2.0 * f64::from(k)))
+            .enumerate()
+            .map(|(k, size)| size * libm::pow(own.radius, 2.0 * k as f64))
+            .sum();
+        assert!(own.rests[0] >= truth && own.rests[0] < 1e3 * truth, "{truth:e}: {own:?}");
     }
 
     #[test]

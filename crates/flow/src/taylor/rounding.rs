@@ -42,7 +42,7 @@ fn rounded(instruction: &RowInstruction, rows: &[Rounded], epsilon: f64) -> Roun
     };
     match &instruction.rule {
         Rule::Sum => sum(instruction, rows, epsilon),
-        Rule::Theta(_) => Rounded::default(),
+        Rule::Theta(_) | Rule::Choice(_) | Rule::Bounded(..) => Rounded::default(),
         Rule::Saturating { function, x, .. } => {
             let bound = match function {
                 Saturating::Sinh | Saturating::Cosh => Saturating::Cosh.at(rows[*x].value),
@@ -55,6 +55,10 @@ fn rounded(instruction: &RowInstruction, rows: &[Rounded], epsilon: f64) -> Roun
         Rule::Near(x, reach) => {
             let is_near = rows[*x].value.abs() < 0.5 * reach;
             Rounded { value: f64::from(u8::from(is_near)), error: 0.0 }
+        }
+        Rule::Void(x) => {
+            let is_void = rows[*x].value <= 0.0;
+            Rounded { value: f64::from(u8::from(is_void)), error: 0.0 }
         }
         Rule::Sign(x) => Rounded { value: 1f64.copysign(rows[*x].value), error: 0.0 },
         Rule::Recip(x) => {

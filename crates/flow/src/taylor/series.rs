@@ -38,6 +38,8 @@ pub struct Series<T: SeriesNumber> {
     divisors: Vec<Place>,
     /// Places of the rows that are 1 near 0, of their arguments, and how far near reaches.
     nears: Vec<(Place, Place, f64)>,
+    /// Places of the rows that are 1 where others are not positive, and of these.
+    voids: Vec<(Place, Place)>,
     /// Operations that are signs, with the places of their arguments.
     signs: Vec<(usize, Place)>,
     has_pulses: bool,
@@ -75,6 +77,11 @@ impl<T: SeriesNumber> Series<T> {
             _ => None,
         });
         let nears = nears.collect();
+        let voids = placed().filter_map(|(operation, finish)| match operation.rule {
+            PlacedRule::Void(x) => Some((finish.place, x)),
+            _ => None,
+        });
+        let voids = voids.collect();
         let signs = code.operations.iter().enumerate();
         let signs = signs.filter_map(|(index, operation)| match operation.rule {
             PlacedRule::Sign(x) => Some((index, x)),
@@ -111,6 +118,7 @@ impl<T: SeriesNumber> Series<T> {
             has_pulses: !exponents.is_empty() || program.degree() > order,
             exponents,
             nears,
+            voids,
             signs,
             expansions: 0,
             machine: None,
@@ -250,6 +258,34 @@ impl<T: SeriesNumber> Series<T> {
     pub fn nears(&self) -> impl Iterator<Item = (&T, &[T], f64)> {
         let nears = self.nears.iter();
         nears.map(|(near, x, reach)| (&self.memory[*near as usize], self.row(*x), *reach))
+    }
+
+    /// Bases of roots that are 0 where these are not positive: whether they are, place and coefficients.
+    pub fn voids(&self) -> impl Iterator<Item = (&T, Place, &[T])> {
+        let voids = self.voids.iter();
+        voids.map(|(void, x)| (&self.memory[*void as usize], *x, self.row(*x)))
+    }
+
+    /// Gives a component the polynomial with these coefficients of orders 1 to 3, in one lane.
+    pub fn put_component(&mut self, index: usize, lane: usize, terms: [T::One; 3]) {
+        let place = self.code.state[index].place as usize;
+        self.put(place + 1, self.order, lane, terms);
+    }
+
+    /// The same for a further function, orders 0 to 2, unless it is a component.
+    pub fn put_output(&mut self, index: usize, lane: usize, terms: [T::One; 3]) {
+        let place = self.code.outputs[index];
+        if !self.code.state.iter().any(|component| component.place == place) {
+            self.put(place as usize, self.order, lane, terms);
+        }
+    }
+
+    fn put(&mut self, place: usize, count: usize, lane: usize, terms: [T::One; 3]) {
+        for (n, target) in self.memory[place..place + count].iter_mut().enumerate() {
+            let own = terms.get(n).copied().unwrap_or(T::One::ZERO);
+            let old = *target;
+            *target = T::from_lanes(|other| if other == lane { own } else { old.lane(other) });
+        }
     }
 
     /// Number of signs of moduli.

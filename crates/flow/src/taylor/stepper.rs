@@ -180,6 +180,7 @@ impl<T: SeriesNumber> Stepper<T> {
         self.keep_values();
         self.keep_signs();
         self.keep_defect();
+        self.bridge_branches();
         self.lanes.iter_mut().for_each(Lane::begin);
     }
 

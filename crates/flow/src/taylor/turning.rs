@@ -138,6 +138,14 @@ impl<T: SeriesNumber> Stepper<T> {
         // A field that is 0 on one side has steps without an end.
         let left = (self.lanes[lane].until - self.lanes[lane].time).hi / self.lanes[lane].unit;
         let length = self.step_size(lane).min(left.abs()).copysign(left);
+        // Next to the zero of a root terms of higher orders say nothing, and the rate decides.
+        let rate = argument[1].leading() * left.signum();
+        let reach = T::EPSILON.powf(0.25) * self.natural_time(lane) / self.lanes[lane].unit;
+        let is_next =
+            self.lanes[lane].came_to == Some(sign) && self.series.voids().next().is_some();
+        if is_next && rate.abs() * reach > error {
+            return (rate > 0.0) == is_positive;
+        }
         match argument[0].leading() {
             first if first.is_nan() || length.is_nan() => true,
             _ if self.lanes[lane].steps > 0 => {

@@ -152,7 +152,50 @@ impl<'p> Coefficients<'p> {
                 let rest = sub(&mul(&number(n), &at(x, n)), &own);
                 mul(&rest, &apply(UnaryFunction::Recip, &mul(&number(n), &at(square, 0))))
             }
+            RowRule::Near(x, reach) => {
+                let size = self.magnitudes(*x)[0];
+                let is_near = |lane: usize| n == 0 && size[lane] < 0.5 * reach;
+                let mid = std::array::from_fn(|lane| if is_near(lane) { 1.0 } else { 0.0 });
+                Balls::new(mid, [0.0; BOXES])
+            }
+            RowRule::Choice { near, close, far } => {
+                let (close, far) = (at(close, n), at(far, n));
+                let chosen = |close: f64, far: f64, lane: usize| {
+                    if self.is_near(*near, lane) { close } else { far }
+                };
+                let mid = |lane: usize| chosen(close.mid[lane], far.mid[lane], lane);
+                let rad = |lane: usize| chosen(close.rad[lane], far.rad[lane], lane);
+                Balls::new(std::array::from_fn(mid), std::array::from_fn(rad))
+            }
+            RowRule::Bounded { x, radius, bound } => {
+                let rad =
+                    std::array::from_fn(|lane| self.bounded(out, *x, n, [*radius, *bound], lane));
+                Balls::new([0.0; BOXES], rad)
+            }
         }
+    }
+
+    /// Whether a row that says where a box is near a place is 1 there.
+    #[inline(always)]
+    pub fn is_near(&self, near: Row, lane: usize) -> bool {
+        self.mid[near * self.stride][lane] == 1.0
+    }
+
+    /// Bounds a coefficient of Σ a_k x^k with Σ |a_k| R^k ≤ c: it is at most that of c/(1 - X/R), X the
+    /// series of the magnitudes of x.
+    #[inline(always)]
+    fn bounded(&self, out: Row, x: Row, n: usize, [radius, bound]: [f64; 2], lane: usize) -> f64 {
+        let (x, own) = (self.magnitudes(x), self.magnitudes(out));
+        let rest = radius - x[0][lane];
+        if rest <= 0.0 {
+            return f64::INFINITY;
+        }
+        let sum = match n {
+            0 => bound * radius,
+            _ => (1..=n).map(|k| x[k][lane] * own[n - k][lane]).sum(),
+        };
+        // The difference is rounded too, by a unit of R.
+        raised(sum / (rest - radius * f64::EPSILON).max(0.0), n + 4)
     }
 
     #[inline(always)]

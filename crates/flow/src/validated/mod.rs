@@ -122,7 +122,7 @@ pub fn prove(request: &Request<'_>) -> Result<ProvedOrbit, Obstacle> {
             .and_then(|search| search.prove(request.wants_multipliers))
         {
             Ok(mut found) => {
-                found.moved = moved(&found.start, &state);
+                found.moved = moved(&found.start, &state, found.data.nodes.iter());
                 found.data.values = numbers;
                 let nearby = Nearby::new(&request.laws());
                 found.persists = nearby.is_some_and(|nearby| nearby.is_analytic_along(&found.data));

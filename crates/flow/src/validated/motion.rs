@@ -8,6 +8,7 @@ use super::sharp;
 use super::tail::{self, End};
 use crate::error::FlowError;
 use crate::motion::presence::as_written;
+use crate::taylor::compile::proved::passed;
 use crate::taylor::form::Row;
 use crate::taylor::program::TaylorProgram;
 use liouville::graph::{Expr, record};
@@ -270,6 +271,8 @@ fn plan(
     })?;
     let left_out = graph.left_out(&rates, &written);
     rates.extend(left_out);
+    let passed = passed(&graph, &rates, &written);
+    rates.extend(passed);
     if graph.inputs() > dimension + loose + more {
         return Err(FlowError::Antiderivative);
     }

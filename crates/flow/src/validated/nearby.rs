@@ -11,6 +11,7 @@ use super::plan::Plan;
 use super::replay::ProofData;
 use crate::error::FlowError;
 use crate::motion::presence::as_written;
+use crate::taylor::compile::proved::passed;
 use crate::taylor::program::TaylorProgram;
 use liouville::formula::Value;
 use liouville::graph::{Expr, record};
@@ -114,5 +115,7 @@ fn plan(laws: &Laws<'_>) -> Result<Option<Plan>, FlowError> {
     }
     let left_out = graph.left_out(&rates, &written);
     rates.extend(left_out);
+    let passed = passed(&graph, &rates, &written);
+    rates.extend(passed);
     Plan::new(&TaylorProgram::exact(&graph, &rates)?).map(Some)
 }

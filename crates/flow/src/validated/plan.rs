@@ -45,6 +45,20 @@ pub enum RowRule {
         square: Row,
         inverse: Row,
     },
+    /// 1 where |x| is below half of the number all over a box, or else 0.
+    Near(Row, f64),
+    /// `close` where `near` is 1, or else `far`.
+    Choice {
+        near: Row,
+        close: Row,
+        far: Row,
+    },
+    /// A function Σ a_k x^k with Σ |a_k| R^k ≤ `bound`, R the `radius`.
+    Bounded {
+        x: Row,
+        radius: f64,
+        bound: f64,
+    },
 }
 
 /// Exponent of a power.
@@ -110,8 +124,15 @@ impl Plan {
                 }
                 Rule::Theta(x) => RowRule::Theta(*x),
                 Rule::Recip(x) => RowRule::Recip(*x),
-                Rule::Sign(_) | Rule::Near(..) | Rule::Saturating { .. } => {
+                Rule::Sign(_) | Rule::Void(_) | Rule::Saturating { .. } => {
                     return Err(FlowError::NotAnalytic);
+                }
+                Rule::Near(x, reach) => RowRule::Near(*x, *reach),
+                Rule::Choice([near, close, far]) => {
+                    RowRule::Choice { near: *near, close: *close, far: *far }
+                }
+                Rule::Bounded(x, [radius, bound]) => {
+                    RowRule::Bounded { x: *x, radius: *radius, bound: *bound }
                 }
                 Rule::Sqrt(x) => {
                     let (exact, value) = (Rational::new(1, 2), Enclosure::exact(0.5));

@@ -68,8 +68,27 @@ impl<'r> Request<'r> {
     }
 }
 
-/// Distance of a point from a state, relative to the state.
-pub(super) fn moved(point: &[Enclosure], state: &[f64]) -> f64 {
-    let gap: Vec<f64> = point.iter().zip(state).map(|(x, y)| x.mid - y).collect();
-    norm(&gap) / norm(state)
+/// Part of its size that a component covers along an orbit, below which it counts as a constant.
+const CONSTANT: f64 = 1e-6;
+/// Part of the state's size below which that of a component is rounding.
+const ROUNDED: f64 = 1e-10;
+
+/// Largest distance of a component of a point from that of a state, relative to what the component covers
+/// along an orbit through these nodes: a large constant among them makes no orbit near. Of one that does
+/// not vary its size counts.
+pub(super) fn moved<'n>(
+    point: &[Enclosure],
+    state: &[f64],
+    nodes: impl Iterator<Item = &'n Vec<f64>> + Clone,
+) -> f64 {
+    let size = norm(state);
+    let apart = point.iter().zip(state).enumerate().map(|(index, (x, y))| {
+        let values = || nodes.clone().filter_map(|node| node.get(index)).chain([y]);
+        let (low, high) = values()
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(*x), high.max(*x)));
+        let largest = low.abs().max(high.abs());
+        let scale = if high - low > CONSTANT * largest { high - low } else { largest };
+        (x.mid - y).abs() / scale.max(ROUNDED * size)
+    });
+    apart.fold(0.0, |a: f64, b| if b.is_nan() { b } else { a.max(b) })
 }

@@ -1,7 +1,7 @@
 //! Residuals in double-double at nodes that are accurate to the last digit of f64.
 
 use super::coefficients::BOXES;
-use super::enclosure::Enclosure;
+use super::enclosure::{Enclosure, raised};
 use super::motion::Boxed;
 use super::plan::{Plan, PowerExponent, RowRule};
 use crate::taylor::form::{BilinearForm, Row};
@@ -167,6 +167,37 @@ impl<'p> PointCoefficients<'p> {
                 let rest = combined(Binary::Sub, &moved, &self.weighted(out, *square, n, n - 1));
                 multiply(&rest, &per(square))
             }
+            RowRule::Near(x, reach) => {
+                let is_near = |lane: usize| n == 0 && size(self.at(*x, 0), lane) < 0.5 * reach;
+                let hi = std::array::from_fn(|lane| if is_near(lane) { 1.0 } else { 0.0 });
+                Block { hi, lo: [0.0; BOXES], rad: [0.0; BOXES] }
+            }
+            RowRule::Choice { near, close, far } => {
+                let (near, close, far) = (self.at(*near, 0), self.at(*close, n), self.at(*far, n));
+                let of = |part: &dyn Fn(&Block, usize) -> f64| {
+                    std::array::from_fn(|lane| {
+                        part(if near.hi[lane] == 1.0 { close } else { far }, lane)
+                    })
+                };
+                Block {
+                    hi: of(&|block, lane| block.hi[lane]),
+                    lo: of(&|block, lane| block.lo[lane]),
+                    rad: of(&|block, lane| block.rad[lane]),
+                }
+            }
+            RowRule::Bounded { x, radius, bound } => {
+                let rad = |lane: usize| {
+                    let rest = radius - size(self.at(*x, 0), lane);
+                    if rest <= 0.0 {
+                        return f64::INFINITY;
+                    }
+                    let own = |k: usize| size(self.at(*x, k), lane) * self.at(out, n - k).rad[lane];
+                    let sum = if n == 0 { bound * radius } else { (1..=n).map(own).sum() };
+                    raised(sum / (rest - radius * f64::EPSILON).max(0.0), n + 4)
+                };
+                let rad = std::array::from_fn(rad);
+                Block { hi: [0.0; BOXES], lo: [0.0; BOXES], rad }
+            }
         }
     }
 
@@ -191,6 +222,11 @@ impl<'p> PointCoefficients<'p> {
         }
         sum
     }
+}
+
+/// Bounds the magnitude of a ball.
+fn size(block: &Block, lane: usize) -> f64 {
+    raised(block.hi[lane].abs() + block.lo[lane].abs() + block.rad[lane], 2)
 }
 
 fn number(value: usize) -> Block {

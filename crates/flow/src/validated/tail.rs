@@ -140,6 +140,14 @@ impl<'c, 'p> Tails<'c, 'p> {
         let found = match operation {
             // Sums have their own rule; a derivative is read by rules that do without its tail.
             RowRule::Sum(_) | RowRule::Theta(_) => f64::INFINITY,
+            RowRule::Near(..) => 0.0,
+            RowRule::Choice { near, close, far } => {
+                tail(if self.coefficients.is_near(*near, lane) { close } else { far })
+            }
+            // All of Σ a_k x^k is at most this.
+            RowRule::Bounded { x, radius, bound } => {
+                over_rest(*bound, (self.norm(*x, lane) + tail(x)) / radius)
+            }
             RowRule::Recip(x) => {
                 let norm = self.norm(out, lane);
                 let defect = above(cross(0) + norm * tail(x));

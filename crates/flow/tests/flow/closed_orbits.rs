@@ -7,6 +7,7 @@ mod catalogue;
 mod horseshoes;
 mod kept;
 mod least;
+mod limits;
 mod nearby;
 mod shifted;
 

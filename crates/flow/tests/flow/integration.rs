@@ -9,10 +9,12 @@ mod jumps;
 mod lanes;
 mod limits;
 mod moduli;
+mod powers;
 mod presence;
 mod progress;
 mod roots;
 mod sections;
+mod sets;
 mod surfaces;
 
 use liouville::case::Case;

@@ -15,11 +15,7 @@ const LEFT_OUT: f64 = 1e-35;
 impl Compiler {
     /// Row of a quotient.
     pub(super) fn limit(&mut self, own: &Removable) -> Row {
-        let mut v = BilinearForm::of_constant(&own.variable.constant);
-        for (place, weight) in &own.variable.terms {
-            let (factor, row) = self.factor(*place);
-            v = v.plus(BilinearForm::of_row(&factor * weight, row));
-        }
+        let v = self.variable(own);
         let v = self.emit(Rule::Sum, v);
         let near = self.emit(Rule::Near(v, own.reach), BilinearForm::default());
         let far = self.quotient(own, near);
@@ -44,6 +40,16 @@ impl Compiler {
         let minus = BilinearForm::of_product(Rational::from(-1), near, far);
         let own = BilinearForm::of_row(Self::one(), far).plus(minus);
         self.emit(Rule::Sum, own.plus(Self::product(near, polynomial)))
+    }
+
+    /// Form of the variable of a series.
+    pub(super) fn variable(&mut self, own: &Removable) -> BilinearForm {
+        let mut v = BilinearForm::of_constant(&own.variable.constant);
+        for (place, weight) in &own.variable.terms {
+            let (factor, row) = self.factor(*place);
+            v = v.plus(BilinearForm::of_row(&factor * weight, row));
+        }
+        v
     }
 
     /// Row of the quotient as written, with divisors that are 1 near the place where they are 0.

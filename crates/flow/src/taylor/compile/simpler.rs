@@ -85,6 +85,27 @@ impl Compiler {
         Some(BilinearForm::of_row(Rational::from(2), sine))
     }
 
+    /// Whether the base of a root may be 0 over a time, as max(x, 0) is.
+    pub(super) fn may_be_void(&self, base: usize) -> bool {
+        self.moduli.get(base).is_some_and(|has| *has)
+    }
+
+    /// Row of the base of a root with 1 in place of what is not positive, and a row that is 0 there and 1
+    /// elsewhere, by which the root is multiplied: so it has a series where the base is 0 for a while.
+    pub(super) fn base(&mut self, place: usize) -> (Row, Row) {
+        let x = self.row(place);
+        if let Some((_, base, on)) = self.voids.iter().find(|(row, ..)| *row == x) {
+            return (*base, *on);
+        }
+        let void = self.emit(Rule::Void(x), BilinearForm::default());
+        let on = BilinearForm::of_constant(&Self::one());
+        let on = self.emit(Rule::Sum, on.plus(BilinearForm::of_row(Rational::from(-1), void)));
+        let base = Self::product(on, x).plus(BilinearForm::of_row(Self::one(), void));
+        let base = self.emit(Rule::Sum, base);
+        self.voids.push((x, base, on));
+        (base, on)
+    }
+
     /// Row of the sign of a step.
     fn sign(&mut self, place: usize) -> Row {
         let x = self.row(place);
@@ -115,7 +136,10 @@ impl Compiler {
             });
         }
         for own in &simpler.limits {
-            rows.push(self.limit(own));
+            rows.push(match &own.proved {
+                Some(proved) if self.is_exact => self.proved_limit(own, proved),
+                _ => self.limit(own),
+            });
         }
         let mut others: Vec<Row> = Vec::new();
         for (place, power) in &simpler.rest.factors {

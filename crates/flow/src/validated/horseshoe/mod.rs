@@ -102,7 +102,8 @@ pub fn prove(request: &Request<'_>) -> Result<ProvedHorseshoe, Obstacle> {
             for turns in first..first + MOST_SIZES {
                 match search.along(&seeker, homoclinic, turns)? {
                     Ok(mut found) => {
-                        found.moved = moved(&found.start, &state);
+                        let nodes = found.data.sets.iter().map(|set| &set.centre);
+                        found.moved = moved(&found.start, &state, nodes);
                         return Ok(found);
                     }
                     Err(problem) => last = problem,

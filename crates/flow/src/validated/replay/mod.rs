@@ -317,7 +317,7 @@ impl Replay<'_> {
         let others = n.saturating_sub(self.functions.len() + 1);
         let passages = segments.iter().map(|segment| &segment.passage).collect::<Vec<_>>();
         Ok(ProvedOrbit {
-            moved: moved(&start, &request.state()),
+            moved: moved(&start, &request.state(), data.nodes.iter()),
             start,
             period: share.times(&period).enclosure(),
             turns: least::turns(&course),

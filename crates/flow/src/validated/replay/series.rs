@@ -124,7 +124,33 @@ impl<X: ReplayNumber> BallSeries<'_, '_, X> {
                 let own = self.weighted(out, *square, n, n - 1);
                 number.times(self.at(*x, n)).minus(&own).times(&per(square))
             }
+            RowRule::Near(x, reach) => {
+                let half = X::exact(0.5 * reach);
+                let is_near = n == 0 && self.at(*x, 0).magnitude().is_below(&half);
+                X::exact(if is_near { 1.0 } else { 0.0 })
+            }
+            RowRule::Choice { near, close, far } => {
+                self.at(if self.is_near(*near) { *close } else { *far }, n).clone()
+            }
+            RowRule::Bounded { x, radius, bound } => {
+                let size = |k: usize| self.at(*x, k).magnitude();
+                let rest = X::exact(*radius).minus(&size(0));
+                let own = |k: usize| size(k).mul(&self.at(out, n - k).magnitude());
+                let sum = match n {
+                    0 => X::exact(*bound).mul(&X::exact(*radius)),
+                    _ => (1..=n).fold(X::zero(), |sum, k| sum.add(&own(k))),
+                };
+                match rest.is_positive() {
+                    true => X::within(&sum.mul(&rest.recip())),
+                    false => X::unknown(),
+                }
+            }
         }
+    }
+
+    /// Whether a row that says where a box is near a place is 1 there.
+    pub fn is_near(&self, near: Row) -> bool {
+        !self.at(near, 0).is_zero()
     }
 
     fn sum(&self, sum: &Weights<X>, n: usize) -> X {

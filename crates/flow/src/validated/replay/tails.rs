@@ -87,6 +87,14 @@ impl<X: ReplayNumber> ReplayedTails<'_, X> {
         let tail = |row: &Row| &self.tails[*row];
         match operation {
             RowRule::Sum(_) | RowRule::Theta(_) => X::unknown(),
+            RowRule::Near(..) => X::zero(),
+            RowRule::Choice { near, close, far } => {
+                tail(if self.series.is_near(*near) { close } else { far }).clone()
+            }
+            RowRule::Bounded { x, radius, bound } => {
+                let size = self.norm(*x).add(tail(x));
+                over_rest(&X::exact(*bound), &size.mul(&X::exact(*radius).recip()))
+            }
             RowRule::Recip(x) => {
                 let norm = self.norm(out);
                 let defect = self.cross(out, *x).add(&norm.mul(tail(x)));

@@ -37,8 +37,13 @@ impl Tails<'_, '_> {
                     plain(x, x);
                     plain(inverse, square);
                 }
-                RowRule::Theta(_) | RowRule::Exp(_) | RowRule::Sin { .. } | RowRule::Cos { .. } => {
-                }
+                RowRule::Theta(_)
+                | RowRule::Exp(_)
+                | RowRule::Sin { .. }
+                | RowRule::Cos { .. }
+                | RowRule::Near(..)
+                | RowRule::Choice { .. }
+                | RowRule::Bounded { .. } => {}
             }
             let mut weighted =
                 |a: &Row, b: &Row| crosses.push(self.crossed(*a, *b, &self.weighted_sums));
@@ -54,7 +59,12 @@ impl Tails<'_, '_> {
                     weighted(other, x);
                 }
                 RowRule::Atan { square, .. } => weighted(square, out),
-                RowRule::Sum(_) | RowRule::Theta(_) | RowRule::Recip(_) => {}
+                RowRule::Sum(_)
+                | RowRule::Theta(_)
+                | RowRule::Recip(_)
+                | RowRule::Near(..)
+                | RowRule::Choice { .. }
+                | RowRule::Bounded { .. } => {}
             }
         }
         crosses
@@ -64,7 +74,10 @@ impl Tails<'_, '_> {
     pub(super) fn cross_count(operation: &RowRule) -> usize {
         match operation {
             RowRule::Sum(sum) => sum.products.len(),
-            RowRule::Theta(_) => 0,
+            RowRule::Theta(_)
+            | RowRule::Near(..)
+            | RowRule::Choice { .. }
+            | RowRule::Bounded { .. } => 0,
             RowRule::Recip(_) | RowRule::Exp(_) => 1,
             RowRule::Ln { .. } | RowRule::Sin { .. } | RowRule::Cos { .. } => 2,
             RowRule::Power { .. } | RowRule::Atan { .. } => 3,

@@ -117,7 +117,9 @@ fn moduli_that_are_touched_are_not_crossed() {
         let found = section(surface, 2);
         assert!(found.crossings.is_empty() && found.tangencies > 2, "{surface}: {found:?}");
     }
-    for surface in ["sqrt(abs(x)) = 2", "atan2(y, x) = 4", "x^21 = 0"] {
+    let found = section("sqrt(abs(x)) = 1/2", 8);
+    assert!(found.problem.is_none() && found.crossings.len() == 8, "through x = 0: {found:?}");
+    for surface in ["sqrt(x + 1/2) = 2", "atan2(y, x) = 4", "x^21 = 0"] {
         let problem = section(surface, 2).problem;
         assert!(matches!(problem, Some(FlowError::SectionEnds { .. })), "{surface}: {problem:?}");
     }

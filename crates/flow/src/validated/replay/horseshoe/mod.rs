@@ -185,7 +185,7 @@ impl HorseshoeReplay<'_> {
         let start: Vec<Enclosure> = all[0].patch.states.iter().map(Wide::enclosure).collect();
         let times = [short.enclosure(), long.enclosure()];
         Ok(ProvedHorseshoe {
-            moved: moved(&start, &request.state()),
+            moved: moved(&start, &request.state(), data.sets.iter().map(|set| &set.centre)),
             start,
             half: data.sets[0].half,
             times,
