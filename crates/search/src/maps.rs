@@ -3,7 +3,7 @@
 use super::densities::tell_volume;
 use super::integrals::tell_if_proved;
 use super::terms::{read, recorded};
-use super::{Effort, SearchError, SearchReport};
+use super::{Effort, FoundKind, SearchError, SearchReport};
 use liouville::case::Case;
 use liouville::graph::Step;
 
@@ -27,7 +27,7 @@ pub fn kept(case: &Case, effort: &Effort, report: &mut SearchReport) -> Result<(
 
 /// Tells the density 1 of a map for which no density was found.
 pub fn volume(case: &Case, effort: &Effort, report: &mut SearchReport) -> Result<(), SearchError> {
-    let has_density = report.formulas("density").next().is_some();
+    let has_density = report.formulas(FoundKind::Density).next().is_some();
     if has_density { Ok(()) } else { tell_volume(case, effort, report) }
 }
 

@@ -20,9 +20,9 @@ use super::ansatz::subspace::complement;
 use super::ansatz::system::{Column, LinearSystem, PrimePoint};
 use super::ask::{judged_alone, proved_energy};
 use super::integrals::tell_if_proved;
-use super::orbit::{CONSTANT_RATE, coefficients, with_few_entries};
+use super::orbit::{coefficients, with_few_entries};
 use super::terms::{is_one, one, read, recorded};
-use super::{Effort, Found, SearchError, SearchReport};
+use super::{Effort, Found, FoundKind, Given, SearchError, SearchReport};
 
 /// Largest number of monomials.
 const MOST_COLUMNS: usize = 260;
@@ -113,8 +113,8 @@ pub fn rates(case: &Case, effort: &Effort, report: &mut SearchReport) -> Result<
         }
         let judged = judged_alone(case, Claim::rate(&function, &rate), effort)?;
         let Some(judged) = judged.filter(|own| own.verdict == Verdict::Proved) else { continue };
-        let with = vec![("rate", rate.to_string())];
-        let found = Found::new(CONSTANT_RATE, &function, None, judged, &case.model);
+        let with = vec![Given::Rate(rate.clone())];
+        let found = Found::new(FoundKind::ConstantRate, &function, None, judged, &case.model);
         report.found.push(Found { with, ..found });
         count += 1;
     }
@@ -169,11 +169,11 @@ impl LinearForms {
         }
         let integrals: Vec<Formula> = proved_energy(case, effort)?
             .into_iter()
-            .chain(report.functions("integral").cloned())
+            .chain(report.functions(FoundKind::Integral).cloned())
             .take(MOST_INTEGRALS)
             .collect();
-        let of_rate = report.found.iter().filter(|own| own.kind == CONSTANT_RATE);
-        let of_rate: Vec<Formula> = of_rate.filter_map(|own| own.function.clone()).collect();
+        let of_rate = report.found.iter().filter(|own| own.kind == FoundKind::ConstantRate);
+        let of_rate: Vec<Formula> = of_rate.filter_map(|own| own.function().cloned()).collect();
         let (mut known, mut driven, mut unit) = (Vec::new(), Vec::new(), 0);
         let made = LinearSystem::record_with_symbols(case, effort, |jet, recording| {
             recording.derive(jet.along_field(), &all, &[one()]);

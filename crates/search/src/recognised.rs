@@ -11,7 +11,7 @@ use super::integrals::claimed_by;
 use super::local::Coordinates;
 use super::lower::Degrees;
 use super::products::degree_in;
-use super::{Effort, Found, SearchError, SearchReport};
+use super::{Effort, Found, FoundKind, SearchError, SearchReport};
 use liouville::case::Case;
 use liouville::claim::Claim;
 use liouville::formula::{Formula, FormulaError, Type};
@@ -30,10 +30,10 @@ const MOST_DEGREE: u32 = 4;
 /// Rewrites the integrals of a report where that makes them shorter.
 pub fn rewrite(case: &Case, effort: &Effort, report: &mut SearchReport) -> Result<(), SearchError> {
     let is_long = |found: &Found| {
-        found.kind == "integral"
+        found.kind == FoundKind::Integral
             && found.with.is_empty()
             && found.verdict == Verdict::Proved
-            && found.formula.chars().count() > SHORT
+            && found.text().chars().count() > SHORT
     };
     let places: Vec<usize> =
         (0..report.found.len()).filter(|k| is_long(&report.found[*k])).collect();
@@ -46,7 +46,7 @@ pub fn rewrite(case: &Case, effort: &Effort, report: &mut SearchReport) -> Resul
     }
     for place in places {
         effort.halt.check()?;
-        let Some(function) = report.found[place].function.clone() else { continue };
+        let Some(function) = report.found[place].function().cloned() else { continue };
         let shorter = match shorter(case, effort, &products, &function) {
             Err(SearchError::NoChart) => return Ok(()),
             other => other?,
@@ -54,7 +54,7 @@ pub fn rewrite(case: &Case, effort: &Effort, report: &mut SearchReport) -> Resul
         if let Some(found) = shorter {
             let known = report.found[place].known.take();
             for own in &mut report.excluded {
-                own.theorem = own.theorem.replace(function.text(), &found.formula);
+                own.theorem = own.theorem.replace(function.text(), found.text());
             }
             report.found[place] = Found { known, ..found };
         }
@@ -161,20 +161,18 @@ fn exchange(
     products: &[(Formula, u32)],
     report: &mut SearchReport,
 ) -> Result<(), SearchError> {
-    let is_told = |found: &Found| {
-        found.kind == "integral" && found.with.is_empty() && found.verdict == Verdict::Proved
-    };
+    let is_told = |found: &Found| found.is_integral() && found.verdict == Verdict::Proved;
     let mut places = Vec::new();
     let mut others: Vec<Formula> = Vec::new();
     for (place, found) in report.found.iter().enumerate().filter(|(_, found)| is_told(found)) {
-        if let Some(function) = &found.function {
+        if let Some(function) = found.function() {
             places.push(place);
             others.push(function.clone());
         }
     }
     let count = others.len();
     others.extend(proved_energy(case, effort)?);
-    let told = |report: &SearchReport, place: usize| report.found[place].formula.chars().count();
+    let told = |report: &SearchReport, place: usize| report.found[place].text().chars().count();
     let Some(longest) = places.iter().map(|place| told(report, *place)).max() else {
         return Ok(());
     };
@@ -201,8 +199,8 @@ fn exchange(
         let mut order: Vec<usize> = (0..count)
             .filter(|k| !is_new[*k] && told(report, places[*k]) > size.max(SHORT))
             .filter(|k| {
-                let text = &report.found[places[*k]].formula;
-                report.excluded.iter().all(|own| !own.theorem.contains(text.as_str()))
+                let text = report.found[places[*k]].text();
+                report.excluded.iter().all(|own| !own.theorem.contains(text))
             })
             .collect();
         order.sort_by_key(|k| std::cmp::Reverse(told(report, places[*k])));
@@ -226,7 +224,7 @@ fn exchange(
             continue;
         };
         let known = claimed_by(case, formula, effort, report)?;
-        let found = Found::new("integral", formula, known, verdict, &case.model);
+        let found = Found::new(FoundKind::Integral, formula, known, verdict, &case.model);
         report.found[places[k]] = found;
         (own[k], is_new[k]) = (gradient, true);
     }
@@ -353,5 +351,5 @@ fn shorter(
         return Ok(None);
     }
     let proved = is_proved(Claim::integral(&sum))?;
-    Ok(proved.map(|report| Found::new("integral", &sum, None, report, &case.model)))
+    Ok(proved.map(|report| Found::new(FoundKind::Integral, &sum, None, report, &case.model)))
 }

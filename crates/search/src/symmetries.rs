@@ -9,7 +9,7 @@ use num_traits::Zero;
 use super::ask::{holds, judged_alone};
 use super::linear::{FunctionRelations, SampledFunctions};
 use super::terms::{combined, integers, one, recorded, whole};
-use super::{Effort, Found, SearchError, SearchReport};
+use super::{Effort, Found, FoundKind, SearchError, SearchReport};
 use liouville::case::Case;
 use liouville::claim::{Claim, LevelSubset};
 use liouville::formula::{Formula, FormulaError, Type};
@@ -75,7 +75,7 @@ pub fn symmetries(
         }
         if let Some(found) = judged_alone(case, claim, effort)?.filter(holds) {
             let parts: Vec<&Formula> = entries.iter().map(|(_, value)| value).collect();
-            let found = Found::of_several("symmetry-field", shown, &parts, found, model);
+            let found = Found::of_several(FoundKind::SymmetryField, shown, &parts, found, model);
             report.found.push(Found { fields: entries, ..found });
         }
     }

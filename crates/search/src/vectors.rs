@@ -7,7 +7,7 @@ use super::ansatz::coefficients::{PrimitiveVector, Ratio};
 use super::ansatz::positions;
 use super::ansatz::system::{Column, LinearSystem};
 use super::ask::judged_alone;
-use super::{Effort, Found, SearchError, SearchReport};
+use super::{Effort, Found, FoundKind, Given, SearchError, SearchReport};
 use liouville::case::Case;
 use liouville::claim::Claim;
 use liouville::formula::{Formula, Type};
@@ -22,11 +22,13 @@ const COMPONENTS: usize = 2;
 /// Adds the vectors to a report of which at least two components were found.
 pub fn gather(case: &Case, effort: &Effort, report: &mut SearchReport) -> Result<(), SearchError> {
     let vectors = vectors(case, effort)?;
-    let is_scalar = |found: &&Found| {
-        found.kind == "integral" && found.with.is_empty() && found.verdict == Verdict::Proved
-    };
-    let own: Vec<Formula> =
-        report.found.iter().filter(is_scalar).filter_map(|found| found.function.clone()).collect();
+    let is_scalar = |found: &&Found| found.is_integral() && found.verdict == Verdict::Proved;
+    let own: Vec<Formula> = report
+        .found
+        .iter()
+        .filter(is_scalar)
+        .filter_map(|found| found.function().cloned())
+        .collect();
     if vectors.is_empty() || own.len() < COMPONENTS {
         return Ok(());
     }
@@ -58,8 +60,9 @@ pub fn gather(case: &Case, effort: &Effort, report: &mut SearchReport) -> Result
             continue;
         };
         let text = vector.to_string();
-        let mut one = Found::of_several("vector-integral", text, &[&vector], verdict, &case.model);
-        one.with = components.iter().map(|own| ("component", own.to_string())).collect();
+        let mut one =
+            Found::of_several(FoundKind::VectorIntegral, text, &[&vector], verdict, &case.model);
+        one.with = components.into_iter().map(Given::Component).collect();
         report.found.push(one);
     }
     Ok(())

@@ -10,7 +10,7 @@ use super::super::library;
 use super::super::linear::SampledFunctions;
 use super::super::orbit;
 use super::super::terms::{is_one, numeric_exponent, one, recorded};
-use super::super::{Effort, SearchError, SearchReport};
+use super::super::{Effort, FoundKind, SearchError, SearchReport};
 use liouville::case::Case;
 use liouville::claim::{ClaimKind, Density};
 use liouville::formula::{Formula, FormulaError, FormulaResult, Type};
@@ -63,10 +63,11 @@ impl Scales {
             ClaimKind::Density(Density(formula)) if !effort.blind => Some(formula),
             _ => None,
         });
-        let densities: Vec<Formula> = report.functions("density").chain(claimed).cloned().collect();
+        let densities: Vec<Formula> =
+            report.functions(FoundKind::Density).chain(claimed).cloned().collect();
         let mut all = orbit::factors(case, effort, &densities)?;
-        let curves = report.found.iter().filter(|found| found.kind == "darboux-polynomial");
-        all.extend(curves.filter_map(|found| found.function.clone()));
+        let curves = report.found.iter().filter(|found| found.kind == FoundKind::DarbouxPolynomial);
+        all.extend(curves.filter_map(|found| found.function().cloned()));
         all.extend(library::factors(&case.model));
         all.truncate(FACTORS);
         let first_density = all.len();

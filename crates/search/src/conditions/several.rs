@@ -19,7 +19,7 @@ use super::values::{self, integrals_with};
 use crate::branches;
 use crate::budget::STEPS;
 use crate::origin::ConditionOrigin;
-use crate::{Effort, SearchError, SearchReport};
+use crate::{Effort, Given, SearchError, SearchReport};
 
 /// Steps of a search for integrals where a condition holds: half a second.
 pub const SEARCH: f64 = STEPS / 2.0;
@@ -262,7 +262,7 @@ impl ConditionSearch<'_> {
                     self.report.remark(unfilled(&text));
                     continue;
                 }
-                let with = ("condition", text.clone());
+                let with = Given::Condition(text.clone());
                 if self.left > 0.0 {
                     integrals_with(&fixed.case, with, self.effort, self.report)?;
                     self.left -= SEARCH;

@@ -2,9 +2,9 @@
 
 use super::super::ansatz::system::PrimePoint;
 use super::super::terms::{TermSum, is_one};
-use super::super::{SearchError, SearchReport};
+use super::super::{FoundKind, Given, SearchError, SearchReport};
 use super::claims::{self, OrbitStatement};
-use super::exponents::{CONSTANT_RATE, ExponentSystem, RateTerm};
+use super::exponents::{ExponentSystem, RateTerm};
 use super::factor::RatedPolynomial;
 use super::images;
 use super::known::IndependentIntegrals;
@@ -64,8 +64,15 @@ impl ExponentSystem<'_, '_> {
                 }
                 let statement =
                     OrbitStatement::Rate { function: function.clone(), rate: rate.clone() };
-                let (setting, with) = (self.setting, vec![("rate", &rate)]);
-                if claims::other(setting, CONSTANT_RATE, &function, &statement, with, report)? {
+                let (setting, with) = (self.setting, Some(Given::Rate(rate.clone())));
+                if claims::other(
+                    setting,
+                    FoundKind::ConstantRate,
+                    &function,
+                    &statement,
+                    with,
+                    report,
+                )? {
                     told += 1;
                     break;
                 }

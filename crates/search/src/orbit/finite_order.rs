@@ -9,7 +9,7 @@ use liouville::mechanics::{Meaning, System};
 use liouville::verdict::Verdict;
 
 use super::super::ask::judged;
-use super::super::{SearchError, SearchReport};
+use super::super::{FoundKind, SearchError, SearchReport};
 use super::setting::OrbitSetting;
 use super::{claims, map_weighted};
 
@@ -166,7 +166,7 @@ fn sums(
     }
     for function in functions.iter().take(MOST_SUMS) {
         setting.effort.halt.check()?;
-        if report.functions("integral").count() >= most {
+        if report.functions(FoundKind::Integral).count() >= most {
             break;
         }
         let own: Option<Vec<Formula>> =

@@ -22,7 +22,7 @@ use super::super::integrals::tell_if_proved;
 use super::super::linear::SampledFunctions;
 use super::super::origin::RemarkOrigin;
 use super::super::terms::{Power, multiplied, one, powers, read, recorded, sum};
-use super::super::{Effort, Found, SearchError, SearchReport};
+use super::super::{Effort, Found, FoundKind, SearchError, SearchReport};
 use super::known::has_told_all;
 use super::map_densities::note_unproved;
 use super::{factors, magnitude, monomials};
@@ -43,7 +43,7 @@ pub fn search(
 ) -> Result<(), SearchError> {
     let System::Map(images) = &case.model.system else { return Ok(()) };
     let dimension = case.model.dimension();
-    let has_density = report.formulas("density").next().is_some();
+    let has_density = report.formulas(FoundKind::Density).next().is_some();
     let is_complete = has_told_all(case, report);
     if !case.model.level.is_empty() || (has_density && is_complete) {
         return Ok(());
@@ -201,7 +201,7 @@ impl ProductFind<'_> {
         match found.verdict {
             Verdict::Proved => {
                 report.remarks.retain(|own| own.origin != RemarkOrigin::UnwrittenDensity);
-                let own = Found::new("density", &density, None, found, &self.case.model);
+                let own = Found::new(FoundKind::Density, &density, None, found, &self.case.model);
                 report.found.push(own);
             }
             _ => note_unproved(&density, &found, report),

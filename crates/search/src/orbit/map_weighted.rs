@@ -9,7 +9,7 @@ use liouville::graph::Tape;
 use super::super::ansatz::note_unwritten;
 use super::super::ansatz::system::PrimePoint;
 use super::super::terms::recorded;
-use super::super::{SearchError, SearchReport};
+use super::super::{FoundKind, SearchError, SearchReport};
 use super::claims;
 use super::known::IndependentIntegrals;
 use super::map_rows::MapRows;
@@ -30,7 +30,7 @@ pub fn search(
     wanted: usize,
     report: &mut SearchReport,
 ) -> Result<(), SearchError> {
-    let densities: Vec<Formula> = report.functions("density").cloned().collect();
+    let densities: Vec<Formula> = report.functions(FoundKind::Density).cloned().collect();
     let variables: Vec<usize> = (0..setting.dimension()).collect();
     if setting.is_on_level() || setting.has_lists() {
         return Ok(());
@@ -47,7 +47,7 @@ pub fn search(
         let search = WeightedSearch { setting, density, tape: &Tape::new(&graph, &tape) };
         for degree in 1..=DEGREE {
             let all = monomials::up_to(&variables, setting.dimension(), degree);
-            if all.len() > MONOMIALS || report.functions("integral").count() >= wanted {
+            if all.len() > MONOMIALS || report.functions(FoundKind::Integral).count() >= wanted {
                 break;
             }
             search.of_degree(&all, report)?;
