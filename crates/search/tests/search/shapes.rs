@@ -76,9 +76,10 @@ fn the_surface_of_a_ball_and_what_follows_from_it_are_no_finds() {
     let case = Case::parse(bowl, &[]).expect("a case");
     let formula = |text: &str| case.formula(text).expect("a formula");
     let mut known = vec![formula("energy"), formula("(r1² + r2²)/2 − r3")];
-    let is_integral = |kind: &str| kind == "integral" || kind == "further-integral";
+    let is_integral =
+        |kind: FoundKind| matches!(kind, FoundKind::Integral | FoundKind::FurtherIntegral);
     let own = report.found.iter().filter(|found| is_integral(found.kind));
-    known.extend(own.map(|found| found.function.clone().expect("a function")));
+    known.extend(own.map(|found| found.function().cloned().expect("a function")));
     assert!(known.len() > 2, "one is found");
     let judged = case.judge(&[Claim::independent(known)], &Options::default()).expect("judged");
     assert_eq!(judged.claims[0].verdict, Verdict::Proved, "{:?}", report.found);

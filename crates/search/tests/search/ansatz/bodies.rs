@@ -32,8 +32,8 @@ fn invariants_with_a_free_tensor_of_inertia_are_found() {
                 kinetic = '(w,I*w)/2'\nquasi-velocities = ['w']\nalgebra = 'so(3)'\n\
                 constraints = ['(w,g) = 0']\n[level]\nequations = ['(g,g) = 1']\n";
     let report = of(text, 2);
-    let has = |kind: &str| report.functions(kind).count() == 1;
-    assert!(has("integral") && has("density"), "{:?}", report.found);
+    let has = |kind: FoundKind| report.functions(kind).count() == 1;
+    assert!(has(FoundKind::Integral) && has(FoundKind::Density), "{:?}", report.found);
     assert!(report.found.iter().all(|own| own.verdict == Verdict::Proved), "{:?}", report.found);
 }
 

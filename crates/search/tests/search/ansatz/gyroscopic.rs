@@ -120,7 +120,7 @@ fn rotors_of_tops_are_found() {
     let report = turned(&top(clebsch, e3));
     assert!(told(&report).contains(&area), "{:?}", told(&report));
     let of_clebsch = report.found.iter().find(|found| found.text().contains("γ1²"));
-    let integral = &of_clebsch.expect("Clebsch's integral").formula;
+    let integral = of_clebsch.expect("Clebsch's integral").text();
     assert_eq!(counted(&report, integral), Some((0, 0)), "{:?}", report.excluded);
     // Zhukovskii and Volterra: the square of the momentum survives each rotor.
     let euler = "title = 'x'\n[parameters]\na = '0.5..2'\nb = '0.5..2'\nc = '0.5..2'\n[state]\n\

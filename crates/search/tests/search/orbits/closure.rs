@@ -27,7 +27,7 @@ fn are_new(text: &str, report: &SearchReport) {
     let case = Case::parse(text, &[]).expect("a case");
     let all: Vec<_> = report.functions(FoundKind::Integral).cloned().collect();
     let found = report.found.iter().filter(|found| found.kind == FoundKind::FurtherIntegral);
-    for one in found.filter_map(|found| found.function.clone()) {
+    for one in found.filter_map(|found| found.function().cloned()) {
         let functions = all.iter().cloned().chain([one.clone()]).collect();
         let claims = [Claim::integral(&one), Claim::independent(functions)];
         let judged = case.judge(&claims, &Options::default()).expect("judged").claims;
