@@ -22,8 +22,7 @@ use super::recorded::{RecordedClaim, Wider};
 use super::run::{Doubles, Values};
 use super::sampler::{Sampler, TAPE_LANES};
 use crate::claim::{Condition, LevelSubset, Need};
-use crate::graph::{Expr, Fault, Step};
-use crate::number::UnaryFunction;
+use crate::graph::{Expr, Fault};
 use crate::number::ball::Ball;
 
 /// A claim that holds at its own place, with the positions of its outputs for a wider one.
@@ -265,17 +264,12 @@ impl Judging<'_> {
         let required = self.common.required_at(&item.claim.place.kept);
         let values = [&wider.residual[..], &wider.defects, &item.requirement, &required].concat();
         let reached = self.graph.reached(values);
-        let is_root = |step: Step<'_>| match step {
-            Step::Unary(UnaryFunction::Sqrt, _) => true,
-            Step::Power(_, exponent) => exponent.to_integer().is_none(),
-            _ => false,
-        };
         is_space
             && wider.residual == item.residual
             && !item.claim.kind.is_negated()
             && (self.graph.left_out(&required, &item.presence).is_empty()
                 || self.is_total(item, wider))
-            && !self.graph.steps().zip(reached).any(|(step, reached)| reached && is_root(step))
+            && !self.graph.steps_at(&reached).any(|(_, step)| step.is_root())
     }
 }
 

@@ -2,6 +2,11 @@
 
 use liouville::number::prime::Modulus;
 
+/// Places of the entries of a vector that are not 0.
+pub fn nonzero(vector: &[u64]) -> Vec<usize> {
+    (0..vector.len()).filter(|place| vector[*place] != 0).collect()
+}
+
 /// A set of independent rows with distinct pivots.
 #[derive(Clone)]
 pub struct Echelon {

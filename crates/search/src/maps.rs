@@ -2,7 +2,7 @@
 
 use super::densities::tell_volume;
 use super::integrals::tell_if_proved;
-use super::terms::{read, recorded};
+use super::terms::recorded;
 use super::{Effort, FoundKind, SearchError, SearchReport};
 use liouville::case::Case;
 use liouville::graph::Step;
@@ -12,15 +12,13 @@ pub fn kept(case: &Case, effort: &Effort, report: &mut SearchReport) -> Result<(
     let model = &case.model;
     let first = model.free_components();
     let (graph, images) = recorded(case, |jet| jet.phase.field().to_vec())?;
-    for (component, image) in images.iter().enumerate() {
+    let state = model.state_formulas()?;
+    for ((component, image), formula) in images.iter().enumerate().zip(&state) {
         match graph.step(graph.place(*image)) {
             Step::Input(input) if input == first + component => {}
             _ => continue,
         }
-        let name = model.component_name(component);
-        for formula in read([name.as_str()], &model.vocabulary) {
-            tell_if_proved(case, &formula, effort, report)?;
-        }
+        tell_if_proved(case, formula, effort, report)?;
     }
     Ok(())
 }

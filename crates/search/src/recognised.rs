@@ -6,7 +6,7 @@
 use super::ansatz::coefficients::{PrimitiveVector, Ratio};
 use super::ansatz::system::{Column, LinearSystem, PrimePoint};
 use super::ask::{judged_alone, proved_energy};
-use super::echelon::Echelon;
+use super::echelon::{Echelon, nonzero};
 use super::integrals::claimed_by;
 use super::local::Coordinates;
 use super::lower::Degrees;
@@ -103,7 +103,7 @@ impl Sums {
         let Some(vectors) = rates.null_space(&at, &columns)? else { return Ok(None) };
         let mut formulas = Vec::new();
         for vector in vectors {
-            let own: Vec<usize> = (0..vector.len()).filter(|k| vector[*k] != 0).collect();
+            let own = nonzero(&vector);
             if length(own.iter().map(|k| &terms[kept[*k]])) >= longest {
                 continue;
             }
@@ -236,9 +236,9 @@ fn exchange(
 fn inner_products(case: &Case, effort: &Effort) -> Result<Vec<(Formula, u32)>, SearchError> {
     let vocabulary = &case.model.vocabulary;
     // Names with their lengths, and whether they are constant.
-    let mut vectors: Vec<(String, usize, bool)> = Vec::new();
-    let mut matrices: Vec<(String, usize)> = Vec::new();
-    for (_, entry) in vocabulary.iter() {
+    let mut vectors: Vec<(Formula, usize, bool)> = Vec::new();
+    let mut matrices: Vec<(Formula, usize)> = Vec::new();
+    for (symbol, entry) in vocabulary.iter() {
         let is_named = matches!(
             entry.meaning,
             Meaning::State(_) | Meaning::Parameter(_) | Meaning::Abbreviation(_)
@@ -247,38 +247,38 @@ fn inner_products(case: &Case, effort: &Effort) -> Result<Vec<(Formula, u32)>, S
             continue;
         }
         let is_constant = entry.reach == Dependence::Parameters;
+        let own = Formula::symbol(&entry.name, symbol, entry.kind);
         match entry.kind {
             Type::Vector(length) if length > 1 => {
-                vectors.push((entry.name.clone(), length, is_constant));
+                vectors.push((own, length, is_constant));
             }
             Type::Matrix(rows, columns) if rows == columns && is_constant => {
-                matrices.push((entry.name.clone(), rows));
+                matrices.push((own, rows));
             }
             _ => {}
         }
     }
-    let mut factors: Vec<(String, usize, bool)> = Vec::new();
-    for (name, length, is_constant) in &vectors {
-        factors.push((name.clone(), *length, *is_constant));
+    let mut factors: Vec<(Formula, usize, bool)> = Vec::new();
+    for (vector, length, is_constant) in &vectors {
+        factors.push((vector.clone(), *length, *is_constant));
         for (matrix, _) in matrices.iter().filter(|(_, rows)| rows == length && !is_constant) {
-            for form in [format!("{matrix}*{name}"), format!("{matrix}⁻¹*{name}")] {
-                factors.push((form, *length, false));
+            for form in [matrix * vector, matrix.raised(-1)? * vector] {
+                factors.push((form?, *length, false));
             }
         }
     }
-    let mut texts = Vec::new();
+    let mut products = Vec::new();
     for (k, (first, length, is_constant)) in factors.iter().enumerate() {
         for (second, other, is_other_constant) in &factors[k..] {
             if length == other && !(*is_constant && *is_other_constant) {
-                texts.push(format!("({first},{second})"));
+                products.push(first.dot(second)?);
             }
         }
     }
-    texts.sort_by_key(|text| text.chars().count());
+    products.sort_by_key(|own: &Formula| own.text().chars().count());
     let everything = Coordinates::all_moving(case);
     let mut found = Vec::new();
-    for text in texts.into_iter().take(MOST_PRODUCTS) {
-        let Ok(formula) = case.formula(&text) else { continue };
+    for formula in products.into_iter().take(MOST_PRODUCTS) {
         if let Some(degree) = degree_in(case, &formula, &everything, effort.options.seed)? {
             found.push((formula, degree));
         }
@@ -326,7 +326,7 @@ fn shorter(
     let Some(vector) = vectors.last().filter(|own| own.last() != Some(&0)) else {
         return Ok(None);
     };
-    let support: Vec<usize> = (0..vector.len()).filter(|k| vector[*k] != 0).collect();
+    let support = nonzero(&vector);
     let used = support.iter().filter(|k| **k < terms.len()).map(|k| &terms[*k]);
     if length(used) >= function.text().chars().count() {
         return Ok(None);

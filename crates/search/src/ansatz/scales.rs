@@ -263,7 +263,7 @@ impl TensorJet {
 /// Whether a value is a rational function of the inputs as it is recorded.
 fn is_rational(graph: &Graph, value: Expr) -> bool {
     let reached = graph.reached([value]);
-    let steps = graph.steps().enumerate().filter(|(place, _)| reached[*place]);
+    let steps = graph.steps_at(&reached);
     steps.map(|(_, step)| step).all(|step| match step {
         Step::Unary(function, _) => matches!(function, UnaryFunction::Neg | UnaryFunction::Recip),
         Step::Binary(operation, ..) => operation != BinaryOperation::Pow,

@@ -234,12 +234,7 @@ pub fn denominators(case: &Case) -> Result<Vec<(Formula, u32)>, SearchError> {
 
 /// Names of the inputs of a recording: components of the free parameters, and of the state.
 pub fn input_names(case: &Case) -> Vec<String> {
-    let model = &case.model;
-    let parameters = model
-        .free_parameters()
-        .flat_map(|own| (0..own.kind.size()).map(|place| own.kind.component(&own.name, place)));
-    let state = (0..model.dimension()).map(|k| model.component_name(k));
-    parameters.chain(state).collect()
+    [case.model.parameter_names(), case.model.state_names()].concat()
 }
 
 /// The cofactor along the field itself, where it is a polynomial of low degree.
@@ -340,7 +335,7 @@ fn degree(own: &RingPolynomial) -> u32 {
 fn fractions_of(graph: &Graph, places: &[usize]) -> Option<Vec<Fraction>> {
     let reached = graph.reached_from(places);
     let mut values: Vec<Option<Fraction>> = vec![None; graph.len()];
-    for (place, step) in graph.steps().enumerate().filter(|(place, _)| reached[*place]) {
+    for (place, step) in graph.steps_at(&reached) {
         let of = |place: usize| values[place].as_ref();
         let made = match step {
             Step::Constant(value) => Fraction::of(RingPolynomial::constant(value.clone())),

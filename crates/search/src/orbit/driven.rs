@@ -8,6 +8,7 @@ use super::exponents::{ExponentSystem, RateTerm};
 use super::factor::RatedPolynomial;
 use super::images;
 use super::known::IndependentIntegrals;
+use crate::echelon::nonzero;
 use liouville::formula::Formula;
 use liouville::verdict::Flaw;
 
@@ -42,7 +43,7 @@ impl ExponentSystem<'_, '_> {
         let mut told = 0;
         for vector in self.relations(&at, &all)? {
             self.setting.effort.halt.check()?;
-            let support: Vec<usize> = (0..vector.len()).filter(|k| vector[*k] != 0).collect();
+            let support = nonzero(&vector);
             let is_known = |column: &usize| matches!(self.columns[*column], RateTerm::Known(_));
             let is_driven = support.iter().any(is_known);
             // Integrals that depend on each other have no function.

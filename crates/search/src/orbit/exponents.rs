@@ -9,7 +9,7 @@ use liouville::graph::Tape;
 
 use super::super::ansatz::system::PrimePoint;
 use super::super::budget::Budget;
-use super::super::echelon::Echelon;
+use super::super::echelon::{Echelon, nonzero};
 use super::super::terms::recorded;
 use super::super::{FoundKind, Given, SearchError, SearchReport};
 use super::angle::{AngleForm, ConjugatePair};
@@ -207,7 +207,7 @@ impl<'s, 'c> ExponentSystem<'s, 'c> {
         let is_whole = self.variables.len() == self.setting.dimension();
         for vector in self.relations(&at, &all)? {
             self.setting.effort.halt.check()?;
-            let support: Vec<usize> = (0..vector.len()).filter(|k| vector[*k] != 0).collect();
+            let support = nonzero(&vector);
             let Some(last) = support.last() else { continue };
             // Without fractions it has been found before.
             if has_quotients && !support.iter().any(is_quotient) {

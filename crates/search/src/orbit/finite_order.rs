@@ -96,8 +96,7 @@ impl Places {
     fn of(case: &Case) -> Option<Self> {
         let mut named = case.clone();
         let (mut variables, mut others) = (Vec::new(), Vec::new());
-        for (k, variable) in case.model.state.iter().enumerate() {
-            let own = case.formula(&variable.name).ok()?;
+        for (k, own) in case.model.state_variables().into_iter().enumerate() {
             let name = format!("otherplace{k}");
             named.define(&name, &own).ok()?;
             others.push(named.formula(&name).ok()?);

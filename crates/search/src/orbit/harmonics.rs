@@ -5,6 +5,7 @@
 //! Darboux functions whose cofactor is known. The equations are linear in the coefficients of polynomials A and
 //! B, and solved at random states modulo a prime in whose field i is.
 
+use crate::echelon::nonzero;
 use liouville::case::Case;
 use liouville::formula::{Formula, FormulaError};
 use liouville::number::rational::Rational;
@@ -167,7 +168,7 @@ impl<'s, 'c> HarmonicSearch<'s, 'c> {
         let mut support: Vec<usize> = Vec::new();
         for column in own {
             let vector = echelon.null_vector(column);
-            support.extend((0..vector.len()).filter(|k| vector[*k] != 0));
+            support.extend(nonzero(&vector));
         }
         support.sort_unstable();
         support.dedup();

@@ -3,6 +3,7 @@
 //! (P ρ)∘Φ = P ρ is linear in the coefficients of P: one row for each random point modulo a prime. So the
 //! integrals of Lyness' and Todd's maps are found over x y and x y z.
 
+use crate::echelon::nonzero;
 use liouville::formula::Formula;
 use liouville::graph::Tape;
 
@@ -75,7 +76,7 @@ impl WeightedSearch<'_, '_> {
         let Some((point, mut gradients)) = known.gradients(setting, &at)? else { return Ok(()) };
         for vector in vectors {
             setting.effort.halt.check()?;
-            let support: Vec<usize> = (0..vector.len()).filter(|k| vector[*k] != 0).collect();
+            let support = nonzero(&vector);
             let picked: Vec<Vec<u32>> = support.iter().map(|k| all[*k].clone()).collect();
             let values: Vec<u64> = support.iter().map(|k| vector[*k]).collect();
             let Some(gradient) = self.gradient(&at, &picked, &values, &point) else { continue };

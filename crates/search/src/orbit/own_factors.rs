@@ -188,7 +188,7 @@ impl<'g> WrittenSteps<'g> {
         let reached = graph.reached_from(places);
         let powers = (0..graph.len()).map(|place| (place, 1)).collect();
         let mut own = Self { graph, all: vec![None; graph.len()], powers };
-        for (place, step) in graph.steps().enumerate().filter(|(place, _)| reached[*place]) {
+        for (place, step) in graph.steps_at(&reached) {
             if let Step::Binary(BinaryOperation::Mul, a, b) = step
                 && own.powers[a].0 == own.powers[b].0
             {

@@ -74,18 +74,14 @@ impl ExplicitField {
         motion: SolvedMotion,
     ) -> Result<Option<Self>, SearchError> {
         let model = &case.model;
-        let (parameters, dimension) = (model.free_components(), model.dimension());
+        let parameters = model.free_components();
         let is_function = |atom: &Atom| matches!(atom, Atom::Constant(Of::Function(..)));
         if ring.atoms.iter().any(is_function) {
             return Ok(None);
         }
-        let own = model
-            .free_parameters()
-            .flat_map(|own| (0..own.kind.size()).map(|place| own.kind.component(&own.name, place)));
-        let mut given: Vec<String> = own.collect();
+        let mut given = model.parameter_names();
         let (prefix, mut renamed) = (unused(PREFIX, case), Vec::new());
-        for component in 0..dimension {
-            let name = model.component_name(component);
+        for (component, name) in model.state_names().into_iter().enumerate() {
             let is_plain = name.chars().all(char::is_alphanumeric);
             let new = if is_plain { name.clone() } else { format!("{prefix}{component}") };
             if new != name {

@@ -350,9 +350,8 @@ fn is_constant(atom: &Atom) -> bool {
 
 /// Whether some component of the state has a name that a variable of a field cannot have, as x'.
 fn names_are_foreign(case: &Case) -> bool {
-    let model = &case.model;
     let is_plain = |name: &str| name.chars().all(char::is_alphanumeric);
-    (0..model.dimension()).any(|k| !is_plain(&model.component_name(k)))
+    case.model.state_names().iter().any(|name| !is_plain(name))
 }
 
 /// Arguments of sines and cosines.

@@ -5,6 +5,7 @@ use liouville::formula::{Formula, exponent_text};
 use liouville::mechanics::{Draw, Model, ParameterOrigin, Range, SamplerSpec};
 use liouville::number::rational::Rational;
 
+use super::super::cleared::input_names;
 use super::names_are_foreign;
 use super::parsed::is_name;
 use super::polynomial::RingPolynomial;
@@ -26,14 +27,8 @@ pub struct RingNames {
 impl RingNames {
     /// Names all variables of a ring.
     pub fn of(case: &Case, ring: &AdjoinedRing) -> Self {
-        let model = &case.model;
-        let parameters = model
-            .free_parameters()
-            .flat_map(|own| (0..own.kind.size()).map(|place| own.kind.component(&own.name, place)));
-        let state = (0..model.dimension()).map(|k| model.component_name(k));
-        let given: Vec<String> = parameters.chain(state).collect();
+        let mut given = input_names(case).into_iter();
         let prefix = unused(PREFIX, case);
-        let mut given = given.into_iter();
         let is_foreign = names_are_foreign(case);
         let mut names = Self { extended: Vec::new(), original: Vec::new() };
         for (place, atom) in ring.atoms.iter().enumerate() {
