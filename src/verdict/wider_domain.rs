@@ -21,7 +21,7 @@ use super::preimages::SecondState;
 use super::recorded::{RecordedClaim, Wider};
 use super::run::{Doubles, Values};
 use super::sampler::{Sampler, TAPE_LANES};
-use crate::claim::{Condition, LevelSubset, Need};
+use crate::claim::{Condition, LevelSubset, Need, PlaceName};
 use crate::graph::{Expr, Fault};
 use crate::number::ball::Ball;
 
@@ -89,7 +89,7 @@ impl Judging<'_> {
         let mut candidates = Vec::new();
         for (item, status) in recorded.iter().zip(statuses.iter_mut()) {
             let wider = item.wider.iter().find(|wider| wider.place == *place);
-            let covered = status.evidence.holds.iter().any(|name| name == "everywhere");
+            let covered = status.evidence.holds.contains(&PlaceName::Everywhere);
             let is_asked = |wider: &Wider| {
                 status.holds()
                     || (status.settled == Some(Verdict::Undecided) && self.is_total(item, wider))
@@ -305,7 +305,7 @@ impl<'f, 'r> Candidate<'f, 'r> {
 }
 
 /// Settles a confirmed claim as proved, by a proof at a place that contains its own.
-fn prove(status: &mut ClaimState, proof: Proof, place: &str) {
+fn prove(status: &mut ClaimState, proof: Proof, place: &PlaceName) {
     status.rung(Method::PrimeField, format!("{place}: {proof}"));
     status.evidence.method = Method::PrimeField;
     status.evidence.proof = Some(proof);

@@ -39,7 +39,7 @@ pub enum SearchError {
     #[error("the count of integrals of degree {0} did not stabilise: there may be infinitely many")]
     Unsettled(u32),
     /// The elimination takes more steps than the effort allows.
-    #[error("{unknowns} unknowns take more than {seconds} s; raise --seconds")]
+    #[error("{unknowns} unknowns take more than {seconds} s; raise --count-seconds")]
     Long {
         /// Number of unknowns.
         unknowns: usize,
@@ -47,13 +47,13 @@ pub enum SearchError {
         seconds: f64,
     },
     /// The series of orbits take more steps than the effort allows.
-    #[error("series of orbits take more than {seconds} s; raise --seconds")]
+    #[error("series of orbits take more than {seconds} s; raise --count-seconds")]
     Series {
         /// Limit that was reached.
         seconds: f64,
     },
     /// The elimination takes more memory than the effort allows.
-    #[error("{unknowns} unknowns take more than {megabytes} MB; raise --megabytes")]
+    #[error("{unknowns} unknowns take more than {megabytes} MB; raise --count-megabytes")]
     Large {
         /// Number of unknowns.
         unknowns: usize,

@@ -174,7 +174,7 @@ impl<'a> HamiltonianSearch<'a> {
                 seconds += own.family.seconds();
                 if seconds > self.effort.seconds && !multiplier.is_one() {
                     report.remark(format!(
-                        "brackets with {name}: not all multipliers of time are tried; the bound is {} s, see --seconds",
+                        "brackets with {name}: not all multipliers of time are tried; the bound is {} s, see --count-seconds",
                         self.effort.seconds
                     ));
                     break 'all;

@@ -208,7 +208,7 @@ impl ConditionSearch<'_> {
                 Err(NoLocus::NoFractions) => {
                     self.report.remark(format!(
                         "conditions on {names} for more integrals of degree {degree} are not sought: \
-                         the equations take longer than --seconds allows, or are not fractions of \
+                         the equations take longer than --count-seconds allows, or are not fractions of \
                          low degree"
                     ));
                     return Ok(true);
@@ -268,7 +268,7 @@ impl ConditionSearch<'_> {
                     self.left -= SEARCH;
                 } else {
                     self.report.remark(format!(
-                        "integrals where {text} are not sought: the bound is {} s, see --seconds",
+                        "integrals where {text} are not sought: the bound is {} s, see --count-seconds",
                         self.effort.seconds
                     ));
                 }

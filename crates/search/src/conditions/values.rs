@@ -96,7 +96,7 @@ fn up_to(
                 Err(SearchError::Long { seconds, .. }) => {
                     report.remark(format!(
                         "values of {name} with more integrals of degree {degree}, and what comes after, \
-                         are not sought: the bound is {seconds} s, see --seconds"
+                         are not sought: the bound is {seconds} s, see --count-seconds"
                     ));
                     return Ok(degree - 1);
                 }

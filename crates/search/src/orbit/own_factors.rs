@@ -9,7 +9,7 @@ use liouville::graph::{Graph, Step};
 use liouville::number::rational::Rational;
 use liouville::number::{BinaryOperation, UnaryFunction};
 
-use super::super::terms::{is_one, recorded};
+use super::super::terms::{product, recorded};
 use super::super::{FoundKind, Given, SearchError, SearchReport};
 use super::claims::{self, OrbitStatement};
 use super::cleared::{denominators, input_names};
@@ -307,14 +307,6 @@ fn joined(operation: BinaryOperation, a: &Formula, b: &Formula) -> Option<Formul
         BinaryOperation::Sub => Some(a - b),
         BinaryOperation::Mul => Some(product(a, b)),
         BinaryOperation::Pow => None,
-    }
-}
-
-fn product(a: &Formula, b: &Formula) -> FormulaResult {
-    match (is_one(a), is_one(b)) {
-        (true, _) => Ok(b.clone()),
-        (_, true) => Ok(a.clone()),
-        _ => a * b,
     }
 }
 

@@ -77,3 +77,21 @@ fn rational_part(case: &Case) -> Result<Option<Case>, SearchError> {
     }
     Ok(Some(own.build()?))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn definitions_of_a_file_are_taken_over() {
+        // s stands in the rates of x and y, and f in none of theirs.
+        let text = "title = 'x'\n[parameters]\na = '1..2'\n[let]\ns = 'x + a*y'\nf = 'exp(x*z)'\n[state]\n\
+                    x = '1..2'\ny = '1..2'\nz = '1..2'\n[field]\nx = 'x*s'\ny = '-y*s'\nz = 'f + s'\n";
+        let case = Case::parse(text, &[]).expect("a case");
+        let part = rational_part(&case).expect("recorded").expect("x and y");
+        assert_eq!(part.model.state_names(), ["x", "y"]);
+        let System::Field(rates) = &part.model.system else { panic!("a field") };
+        assert_eq!([rates[0].text(), rates[1].text()], ["x*s", "-y*s"]);
+        assert!(part.formula("s").is_ok() && part.formula("f").is_err(), "f contains z");
+    }
+}

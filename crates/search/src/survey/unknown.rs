@@ -7,7 +7,7 @@ use super::question::TestedClaim;
 use crate::{CountReport, Effort, Excluded, Found, FoundKind, Given, Halt, search};
 use liouville::case::Case;
 use liouville::case::Expect;
-use liouville::claim::Claim;
+use liouville::claim::{Claim, ClaimKind};
 use liouville::mechanics::System;
 use liouville::verdict::{ClaimReport, Options, Verdict};
 
@@ -84,13 +84,13 @@ const OF_SEARCH: &str = "found by the search";
 
 /// Whether a density of the search is proved to be one that the case claims, up to a factor.
 pub fn is_claimed_density(case: &Case, options: &Options, found: &ClaimReport) -> bool {
-    if found.kind != "density" || found.source != OF_SEARCH {
+    if found.kind != FoundKind::Density.name() || found.source != OF_SEARCH {
         return false;
     }
     let Some(own) = found.formula.as_ref().and_then(|text| case.formula(text).ok()) else {
         return false;
     };
-    let claimed = case.claims.iter().filter(|claim| claim.kind.name() == "density");
+    let claimed = case.claims.iter().filter(|claim| matches!(claim.kind, ClaimKind::Density(_)));
     claimed.filter_map(|claim| claim.kind.formula()).any(|other| {
         // They are the same up to a factor where their quotient is constant.
         let Ok(quotient) = &own.bracketed() / &other.bracketed() else { return false };

@@ -105,3 +105,18 @@ fn fields_without_divergence_have_the_density_1() {
     let report = searched(&growing, &Effort::default());
     assert!(report.formulas(FoundKind::Density).all(|own| own != "1"), "{:?}", report.found);
 }
+
+#[test]
+fn names_of_a_file_are_not_taken_for_those_of_functions() {
+    // Functions are variables with names of the program, such as aux3.
+    for name in ["a", "aux3", "arcaux3"] {
+        let text = format!(
+            "title = 'x'\n[parameters]\n{name} = '1..2'\n[state]\nx = '-1..1'\ny = '-1..1'\n[field]\n\
+             x = 'y'\ny = '-{name}*sin(x)'\n"
+        );
+        let report = searched(&text, &Effort { degree: 2, ..Effort::default() });
+        let integral = format!("y² − 2*{name}*cos(x)");
+        assert_eq!(report.formulas(FoundKind::Integral).collect::<Vec<_>>(), [integral]);
+        assert_eq!(report.excluded.len(), 1, "{name}: {:?}", report.remarks);
+    }
+}
