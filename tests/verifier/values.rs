@@ -334,7 +334,9 @@ fn maps_are_built_as_values() {
     ];
     let report = built.judge(&claims, &Options::default()).expect("judged");
     assert!(report.claims.iter().all(|claim| claim.agrees), "x*y is kept, and x + y is not");
-    let refused = |built: Result<Case, _>| built.map(|_| ()).expect_err("refused").to_string();
+    let refused = |built: Result<Case, liouville::case::ClaimError>| {
+        built.map(|_| ()).expect_err("refused").to_string()
+    };
     let missing = refused(map().variable("y", "1..2").build());
     assert!(missing.contains("the image is missing"), "{missing}");
     let open = refused(map().state("y", "1..2", "∫(exp(x²), x)").build());
