@@ -391,16 +391,3 @@ fn least_periods_are_stated_only_where_they_are_proved_again() {
         assert!(told.ends_with("2 certificates: 1 proved, 1 refused\n"), "{told}");
     }
 }
-
-#[test]
-fn the_format_of_a_certificate_is_the_value_of_its_key() {
-    let path = scratch("by-points").with_extension("json");
-    let title = "no liouville motion certificate 1";
-    let text = format!(
-        "{{\"format\": \"liouville certificate 1\", \"statement\": {{\"title\": \"{title}\"}}}}"
-    );
-    fs::write(&path, text).expect("written");
-    let output = run(env!("CARGO_BIN_EXE_liouville"), &["verify", &path.display().to_string()]);
-    let told = self::text(&output.stdout);
-    assert!(told.contains("a proof by points, which"), "{told}");
-}
