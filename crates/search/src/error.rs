@@ -78,6 +78,9 @@ pub enum SearchError {
     /// The candidate is not a valid claim for this case.
     #[error("the candidate is not a valid claim for this case: {0}")]
     Unfit(#[from] ClaimError),
+    /// A field or map of the search itself cannot be built.
+    #[error("a system of the search cannot be built: {0}")]
+    Unbuilt(ClaimError),
     /// A formula cannot be made of others.
     #[error("the formula of a candidate cannot be written: {0}")]
     Unwritten(#[from] FormulaError),

@@ -74,7 +74,7 @@ pub struct SearchReport {
     /// independent ones as there can be.
     #[serde(skip)]
     pub is_complete: bool,
-    /// Parts that could not be carried out as no terms have values modulo a prime.
+    /// Parts that could not be carried out as no terms have values modulo a prime, or no system was built.
     #[serde(skip)]
     pub(crate) without_points: Vec<String>,
     /// Polynomial integrals met on the way that are functions of others, and no polynomials in them.
@@ -155,7 +155,7 @@ impl SearchReport {
                 self.unreached.push(name.to_string());
                 Ok(())
             }
-            Err(error @ SearchError::NoPoints) => {
+            Err(error @ (SearchError::NoPoints | SearchError::Unbuilt(_))) => {
                 self.without_points.push(format!("not searched: {name}: {error}"));
                 Ok(())
             }

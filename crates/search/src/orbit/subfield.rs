@@ -21,7 +21,7 @@ pub fn search(
     progress: &mut dyn FnMut(&str),
 ) -> Result<(), SearchError> {
     let part = match rational_part(case) {
-        Err(SearchError::Unfit(error)) => {
+        Err(SearchError::Unbuilt(error)) => {
             report.remark(format!("variables with rational rates are not searched alone: {error}"));
             return Ok(());
         }
@@ -75,7 +75,7 @@ fn rational_part(case: &Case) -> Result<Option<Case>, SearchError> {
     for k in &part {
         own = own.rate(&model.state[*k].name, field[*k].text());
     }
-    Ok(Some(own.build()?))
+    own.build().map(Some).map_err(SearchError::Unbuilt)
 }
 
 #[cfg(test)]

@@ -99,7 +99,8 @@ impl ExplicitField {
         for equation in &motion.level {
             field = field.level(written(equation, &names), Formula::number(0));
         }
-        Ok(Some(Self { case: field.build()?, is_whole: motion.is_whole, renamed }))
+        let case = field.build().map_err(SearchError::Unbuilt)?;
+        Ok(Some(Self { case, is_whole: motion.is_whole, renamed }))
     }
 }
 

@@ -78,7 +78,8 @@ impl MonomialMap {
             .iter()
             .map(|(_, own)| own.iter().map(RingPolynomial::value).collect::<Option<Vec<_>>>());
         let exponents = exponents.collect();
-        Ok(Self { case: map.build()?, exponents, coefficients })
+        let case = map.build().map_err(SearchError::Unbuilt)?;
+        Ok(Self { case, exponents, coefficients })
     }
 
     /// Writes a formula of the logarithms in the names of the map; `logarithms` are those of the state,

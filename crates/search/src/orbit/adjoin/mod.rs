@@ -160,7 +160,8 @@ impl Extension {
         let is_bound =
             |atom: &Atom| !is_constant(atom) && !is_free(atom) && !matches!(atom, Atom::State);
         let is_unbound = self.ring.atoms.iter().any(is_bound);
-        Ok(is_unbound.then(|| self.field.clone().build()).transpose()?)
+        let built = is_unbound.then(|| self.field.clone().build()).transpose();
+        built.map_err(SearchError::Unbuilt)
     }
 
     /// The relations between the functions of a case without a level, if they are circles and hyperbolas
@@ -288,7 +289,7 @@ fn written(case: &Case, read: Read, seed: u64) -> Result<Option<Extension>, Sear
     let Some((field, whole)) = write::case(case, ring, (&rates, &level), &names) else {
         return Ok(None);
     };
-    let extended = whole.build()?;
+    let extended = whole.build().map_err(SearchError::Unbuilt)?;
     let formula =
         |own: &RingPolynomial| extended.formula(&write::written(own, &names.extended)).ok();
     let Some(divergence) = formula(&divergence) else { return Ok(None) };

@@ -52,11 +52,10 @@ impl RingNames {
     }
 }
 
-/// The beginning of names that none of a case has: `aux`, or with further letters.
+/// The beginning of names that no name of a case contains: `aux`, or with further letters.
 pub fn unused(beginning: &str, case: &Case) -> String {
     let is_taken = |own: &String| {
-        let all = case.model.vocabulary.iter();
-        all.into_iter().any(|(_, entry)| entry.name.starts_with(own.as_str()))
+        case.model.vocabulary.iter().any(|(_, entry)| entry.name.contains(own.as_str()))
     };
     let mut own = beginning.to_string();
     while is_taken(&own) {
