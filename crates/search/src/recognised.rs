@@ -326,7 +326,7 @@ fn shorter(
     let Some(vector) = vectors.last().filter(|own| own.last() != Some(&0)) else {
         return Ok(None);
     };
-    let support = nonzero(&vector);
+    let support = nonzero(vector);
     let used = support.iter().filter(|k| **k < terms.len()).map(|k| &terms[*k]);
     if length(used) >= function.text().chars().count() {
         return Ok(None);

@@ -115,7 +115,7 @@ fn vector(
         let columns: Vec<usize> = (0..terms.len()).map(|k| 3 * k + axis).chain([count]).collect();
         let Some(vectors) = system.null_space(&at, &columns)? else { return Ok(None) };
         let Some(own) = vectors.last().filter(|own| own.last() != Some(&0)) else { continue };
-        let kept = nonzero(&own);
+        let kept = nonzero(own);
         let support: Vec<usize> = kept.iter().map(|k| columns[*k]).collect();
         let Some(coefficients) = PrimitiveVector::of(&system, &support)? else { continue };
         let places: Vec<usize> = (0..kept.len() - 1).collect();

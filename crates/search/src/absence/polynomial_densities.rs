@@ -86,7 +86,7 @@ impl Counting<'_> {
             ))
         };
         let Some(vector) = own else { return open() };
-        let support = nonzero(&vector);
+        let support = nonzero(vector);
         let used: Vec<usize> = support.iter().map(|k| columns[*k]).collect();
         let Some(coefficients) = PrimitiveVector::of(&self.system, &used)? else { return open() };
         let last = support.len() - 1;

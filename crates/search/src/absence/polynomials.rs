@@ -304,7 +304,7 @@ impl<'a> Counting<'a> {
         vector: &[u64],
         direction: usize,
     ) -> Result<Option<Formula>, SearchError> {
-        let support = nonzero(&vector);
+        let support = nonzero(vector);
         let start = self.columns(direction).first().copied();
         let columns = |start: usize| support.iter().map(|k| start + k).collect::<Vec<_>>();
         let Some(start) = start else { return Ok(None) };

@@ -203,7 +203,7 @@ impl IntegralSearch<'_> {
         report: &mut SearchReport,
     ) -> Result<Outcome, SearchError> {
         let Self { case, effort, .. } = *self;
-        let support = nonzero(&vector);
+        let support = nonzero(vector);
         let Some(coefficients) = PrimitiveVector::of(system, &support)? else {
             let (degree, count, below) = (self.degree, support.len(), &self.below);
             let what = format!("an integral of degree {degree} with {count} terms over {below}");

@@ -78,7 +78,7 @@ fn affine(at: &PrimePoint, all: &[(Vec<u64>, Vec<u64>)], dimension: usize) -> Op
 fn sphere(at: &PrimePoint, all: &[(Vec<u64>, Vec<u64>)]) -> Option<LevelShape> {
     let m = at.modulus;
     let (state, slopes) = all.first()?;
-    let block = nonzero(&slopes);
+    let block = nonzero(slopes);
     let last = *block.last().filter(|_| block.len() > 1 && slopes.len() == state.len())?;
     let is_zero = state.contains(&0);
     let ratio = (!is_zero).then(|| m.mul(slopes[last], m.inverse(state[last])))?;

@@ -63,7 +63,7 @@ impl RationalSearch<'_, '_> {
                 if degree < self.degree || first.free.iter().any(divides) {
                     continue;
                 }
-                let support = nonzero(&vector);
+                let support = nonzero(vector);
                 let one = LeadingRelations { of: self, support: self.picked(&support) };
                 found |= one.search(at, interpolated, known, report)?;
             }

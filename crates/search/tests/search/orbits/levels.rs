@@ -14,7 +14,7 @@ fn on_level(rates: &[&str], (range, level): (&str, &str)) -> SearchReport {
     searched(&text, &Effort::default())
 }
 
-fn all<'r>(report: &'r SearchReport, kind: FoundKind) -> Vec<&'r str> {
+fn all(report: &SearchReport, kind: FoundKind) -> Vec<&str> {
     report.found.iter().filter(|own| own.kind == kind).map(|own| own.text()).collect()
 }
 

@@ -17,7 +17,7 @@ fn lagrangian(parameters: &str, state: &str, rest: &str) -> String {
     )
 }
 
-fn all<'r>(report: &'r SearchReport, kind: FoundKind) -> Vec<&'r str> {
+fn all(report: &SearchReport, kind: FoundKind) -> Vec<&str> {
     report.found.iter().filter(|own| own.kind == kind).map(|own| own.text()).collect()
 }
 

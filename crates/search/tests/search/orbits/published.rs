@@ -6,7 +6,7 @@ use liouville_search::{Effort, FoundKind, SearchReport};
 use super::maps::map;
 use super::{field, searched};
 
-fn told<'r>(report: &'r SearchReport, kind: FoundKind) -> Vec<&'r str> {
+fn told(report: &SearchReport, kind: FoundKind) -> Vec<&str> {
     report.formulas(kind).collect()
 }
 
