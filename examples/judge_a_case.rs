@@ -51,7 +51,8 @@ fn main() -> Result<(), Box<dyn Error>> {
             println!("  {}: {}", rung.rung, rung.found);
         }
         if !evidence.holds.is_empty() {
-            println!("  holds: {}", evidence.holds.join(", "));
+            let places: Vec<String> = evidence.holds.iter().map(ToString::to_string).collect();
+            println!("  holds: {}", places.join(", "));
         }
         if let Some(witness) = &evidence.witness {
             let drawn = witness.parameters.iter().map(|(name, value)| format!("{name} = {value}"));

@@ -1,6 +1,6 @@
 //! The tables `[[claim]]`: statement, place, and expectation.
 
-use super::entries::{Entries, other, place_of};
+use super::entries::{Entries, mistake_at, place_of};
 use super::error::{Mistake, Problem};
 use super::section::CaseTable;
 use super::{Expect, MotionClaim, PlacedClaim, SectionPlan, TABLE_ROWS};
@@ -230,7 +230,7 @@ pub fn name(section: &CaseTable<'_>, base: String, taken: &[String]) -> Result<S
     if let Some(text) = section.text("name")? {
         if taken.contains(&text.value) {
             let message = format!("two claims are called `{}`", text.value);
-            return Err(other(&text, message, "give each claim a different name"));
+            return Err(mistake_at(&text, message, "give each claim a different name"));
         }
         return Ok(text.value);
     }
@@ -277,7 +277,7 @@ pub fn cell(section: &CaseTable<'_>) -> Result<Option<String>, Mistake> {
     match section.text("cell")? {
         Some(text) if !TABLE_ROWS.contains(&text.value.as_str()) => {
             let remedy = format!("the rows are {}", TABLE_ROWS.join(", "));
-            Err(other(
+            Err(mistake_at(
                 &text,
                 format!("`{}` is not a row of the paper's tables", text.value),
                 &remedy,
@@ -294,7 +294,7 @@ pub fn expect(section: &CaseTable<'_>) -> Result<Expect, Mistake> {
         "holds" => Ok(Expect::Holds),
         "fails" => Ok(Expect::Fails),
         "open" => Ok(Expect::Open),
-        found => Err(other(
+        found => Err(mistake_at(
             &text,
             format!("`expect` is \"holds\", \"fails\" or \"open\", not \"{found}\""),
             "write what you expect of the claim: holds, fails or open",

@@ -93,7 +93,7 @@ impl Reader for Entries<'_, '_> {
         let text = self.section.text(key)?.ok_or_else(|| self.missing(key))?;
         let Some((left, right, second)) = sides(&text.value) else {
             let message = format!("`{key}` has two sides");
-            return Err(other(&text, message, "write \"A = B\""));
+            return Err(mistake_at(&text, message, "write \"A = B\""));
         };
         let read = |side: &str, start: usize| {
             Formula::parse(side, &self.model.vocabulary).map_err(|error| {
@@ -206,6 +206,6 @@ pub fn place_of(section: &CaseTable<'_>, key: &'static str) -> Range<usize> {
 }
 
 /// The mistake in a text, with its remedy.
-pub fn other(text: &SpannedStr, message: String, remedy: &str) -> Mistake {
+pub fn mistake_at(text: &SpannedStr, message: String, remedy: &str) -> Mistake {
     Mistake::at(text.span.clone(), Problem::Other { message, remedy: remedy.to_string() })
 }

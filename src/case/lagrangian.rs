@@ -1,5 +1,6 @@
 //! The table `[lagrangian]`: kinetic energy, potential, constraints.
 
+use super::entries::mistake_at;
 use super::equations;
 use super::error::{Mistake, Problem};
 use super::field::{self, GivenRate};
@@ -13,10 +14,6 @@ use crate::mechanics::{
     AccelerationSolver, Algebra, Dependence, Lagrangian, LevelEquation, System, TIME, Variable,
     VariableRole, Vocabulary,
 };
-
-fn other(text: &SpannedStr, message: String, remedy: &str) -> Mistake {
-    Mistake::at(text.span.clone(), Problem::Other { message, remedy: remedy.to_string() })
-}
 
 /// Reads the table; state and abbreviations are declared, and the level becomes the constraints.
 /// `None` where there is a mistake.
@@ -171,7 +168,7 @@ fn named(
             let name = canonical_name(&text.value).unwrap_or_default();
             variables.iter().position(|variable| variable.name == name).ok_or_else(|| {
                 let message = format!("`{}` is not a state variable", text.value);
-                other(text, message, "declare it in [state]")
+                mistake_at(text, message, "declare it in [state]")
             })
         })
         .collect()
@@ -202,13 +199,13 @@ fn algebra(
             ("so(3)", [index]) if quasi.len() == 1 => Ok(Algebra::Rotations(start(*index))),
             ("so(3)", _) => {
                 let message = "so(3) acts on one vector of quasi-velocities".to_string();
-                Err(other(&text, message, "write quasi-velocities = [\"ω\"] with ω a vector"))
+                Err(mistake_at(&text, message, "write quasi-velocities = [\"ω\"] with ω a vector"))
             }
             (found, _) => {
                 let message = format!("`{found}` is not a known algebra");
                 let remedy = "write \"so(3)\", or leave it out: the commutators are computed from \
                               [field] where the coordinates are as many as the velocities";
-                Err(other(&text, message, remedy))
+                Err(mistake_at(&text, message, remedy))
             }
         };
     }
@@ -277,7 +274,7 @@ fn force(
     });
     let Some(velocity) = velocity else {
         let message = format!("`{key}` is not a coordinate or quasi-velocity");
-        return Err(other(text, message, "name the coordinate on which the force acts"));
+        return Err(mistake_at(text, message, "name the coordinate on which the force acts"));
     };
     let first: usize = variables[..velocity].iter().map(Variable::len).sum();
     let kind = variables[velocity].kind;

@@ -115,6 +115,12 @@ impl From<&str> for FormulaSource {
     }
 }
 
+impl From<String> for FormulaSource {
+    fn from(text: String) -> Self {
+        FormulaSource::Text(text)
+    }
+}
+
 impl From<Formula> for FormulaSource {
     fn from(formula: Formula) -> Self {
         FormulaSource::Formula(formula)

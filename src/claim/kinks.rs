@@ -22,7 +22,7 @@ pub(super) fn assumption(model: &Model) -> Option<(Assumption, String)> {
 
 /// Returns the remark for a map with a modulus.
 pub(super) fn of_map(graph: &Graph, image: &[Expr]) -> Option<String> {
-    let is_modulus = |step: Step<'_>| matches!(step, Step::Unary(UnaryFunction::Abs, _));
+    let is_modulus = |step: Step<'_>| step.is_modulus();
     graph.has_step(image, is_modulus).then(|| {
         "the map has kinks where what is in |…| is 0, and may take states on both sides to one"
             .to_string()

@@ -92,7 +92,7 @@ pub use lax::Lax;
 pub use limit::Limit;
 pub use lyapunov::Lyapunov;
 pub use no_density_near::NoDensityNear;
-pub use place::LevelSubset;
+pub use place::{LevelSubset, PlaceName};
 pub use quadrature::quadrature_defects;
 
 pub use reader::{ComplexFormula, Reader};

@@ -1,6 +1,44 @@
 //! Places of claims: all of phase space, the level set, or some of its equations.
 
+use std::fmt;
+
+use serde::{Serialize, Serializer};
+
 use crate::mechanics::Model;
+
+/// A place of claims by its name in reports.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum PlaceName {
+    /// All of phase space.
+    Everywhere,
+    /// The level set.
+    Level,
+    /// Some equations of the level set.
+    Equations(String),
+    /// The images of the states of a place under the map of a claim.
+    ImagesOf(Box<PlaceName>),
+}
+
+impl fmt::Display for PlaceName {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Everywhere => out.write_str("everywhere"),
+            Self::Level => out.write_str("level"),
+            Self::Equations(text) => out.write_str(text),
+            Self::ImagesOf(place) => match &**place {
+                Self::Everywhere => out.write_str("at the images of all states"),
+                Self::Level => out.write_str("at the images of the level"),
+                other => write!(out, "at the images of {other}"),
+            },
+        }
+    }
+}
+
+impl Serialize for PlaceName {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(self)
+    }
+}
 
 /// The level equations that states must satisfy.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -53,9 +91,9 @@ impl LevelSubset {
     }
 
     /// Returns the name of the place in reports.
-    pub fn name(&self, model: &Model) -> String {
+    pub fn name(&self, model: &Model) -> PlaceName {
         if self.kept.iter().all(|kept| *kept) && !self.kept.is_empty() {
-            return "level".to_string();
+            return PlaceName::Level;
         }
         let kept: Vec<&str> = model
             .level
@@ -64,6 +102,9 @@ impl LevelSubset {
             .filter(|(_, kept)| **kept)
             .map(|(equation, _)| equation.text.as_str())
             .collect();
-        if kept.is_empty() { "everywhere".to_string() } else { kept.join(", ") }
+        match kept.is_empty() {
+            true => PlaceName::Everywhere,
+            false => PlaceName::Equations(kept.join(", ")),
+        }
     }
 }

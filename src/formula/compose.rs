@@ -11,7 +11,7 @@ use super::arena::{Arena, NodeId, NodeOperation};
 use super::bond::{Bond, bond, is_signed};
 use super::error::{FormulaError, Span};
 use super::kind::Type;
-use super::scope::Scope;
+use super::scope::{Scope, Symbol};
 use super::typing::{Builder, Built, Infix, Operand};
 use crate::number::rational::Rational;
 
@@ -142,6 +142,13 @@ impl Formula {
         let mut arena = Arena::default();
         arena.push(NodeOperation::Number(value), Type::Scalar, 0..text.len());
         Self { text, arena }
+    }
+
+    /// Formula of a symbol, written by its name.
+    pub fn symbol(name: &str, symbol: Symbol, kind: Type) -> Self {
+        let mut arena = Arena::default();
+        arena.push_symbol(symbol, kind, 0..name.len(), || name.to_string());
+        Self { text: name.to_string(), arena }
     }
 
     /// Formula of a name of the scope.

@@ -49,7 +49,7 @@ fn has_value_everywhere(graph: &Graph, value: Expr) -> bool {
     use UnaryFunction::{Abs, Atan, Cos, Exp, Neg, Sin, Sqrt};
     let reached = graph.reached([value]);
     let mut is_not_negative = vec![false; reached.len()];
-    for (place, step) in graph.steps().enumerate().filter(|(place, _)| reached[*place]) {
+    for (place, step) in graph.steps_at(&reached) {
         let exists = match step {
             Step::Constant(_) | Step::Input(_) => true,
             Step::Unary(Sqrt, a) => is_not_negative[a],

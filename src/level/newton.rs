@@ -9,7 +9,6 @@ use nalgebra::{DMatrix, DVector};
 use crate::graph::{Evaluator, Expr, Fault, Graph, Step, Tape, record};
 use crate::mechanics::calculus::DualPoint;
 use crate::mechanics::{LevelFunction, Model, Phase};
-use crate::number::UnaryFunction;
 use crate::number::ball::{Ball, Balls};
 use crate::number::float::Float;
 use crate::proof::has_flat_factor;
@@ -207,7 +206,7 @@ impl Newton {
 /// Whether some value contains a modulus.
 pub fn has_moduli(graph: &Graph, values: &[Expr]) -> bool {
     let reached = graph.reached(values.iter().copied());
-    let is_modulus = |step: Step<'_>| matches!(step, Step::Unary(UnaryFunction::Abs, _));
+    let is_modulus = |step: Step<'_>| step.is_modulus();
     (0..reached.len()).any(|k| reached[k] && is_modulus(graph.step(k)))
 }
 

@@ -1,12 +1,56 @@
 //! The formulas of a model, and those that others use.
 
 use super::level_equation::LevelFunction;
-use super::model::{Model, ParameterOrigin};
+use super::model::{Model, Parameter, ParameterOrigin};
 use super::quantity::Quantity;
 use super::vocabulary::Meaning;
-use crate::formula::{Formula, Symbol};
+use crate::formula::{Formula, FormulaError, Symbol, Type};
 
 impl Model {
+    /// Names of the components of the free parameters, the first inputs of a recording.
+    pub fn parameter_names(&self) -> Vec<String> {
+        let components = |own: &Parameter| {
+            let name = |place| own.kind.component(&own.name, place);
+            (0..own.kind.size()).map(name).collect::<Vec<_>>()
+        };
+        self.free_parameters().flat_map(components).collect()
+    }
+
+    /// Names of the components of the state.
+    pub fn state_names(&self) -> Vec<String> {
+        (0..self.dimension()).map(|component| self.component_name(component)).collect()
+    }
+
+    /// Variables of the state as formulas.
+    pub fn state_variables(&self) -> Vec<Formula> {
+        let formula = |index: usize| self.vocabulary.formula_of(Meaning::State(index));
+        (0..self.state.len()).filter_map(formula).collect()
+    }
+
+    /// Components of the state as formulas: `x`, `γ3`, or `γ[3]` where γ3 is another name.
+    ///
+    /// # Errors
+    /// None is known: a component of a variable always has a formula.
+    pub fn state_formulas(&self) -> Result<Vec<Formula>, FormulaError> {
+        let mut all = Vec::new();
+        for variable in self.state_variables() {
+            match variable.value_type() {
+                Type::Scalar => all.push(variable),
+                Type::Vector(length) => {
+                    for index in 1..=length {
+                        all.push(variable.element(index, &self.vocabulary)?);
+                    }
+                }
+                kind => {
+                    for place in kind.places() {
+                        all.push(variable.component(&place)?);
+                    }
+                }
+            }
+        }
+        Ok(all)
+    }
+
     /// Whether the value of a parameter is written into the case, or into one of these formulas, as
     /// a size or an index, so that the parameter cannot change.
     pub fn is_rigid(&self, parameter: usize, formulas: &[&Formula]) -> bool {

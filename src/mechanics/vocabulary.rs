@@ -140,6 +140,12 @@ impl Vocabulary {
         self.entries.iter().enumerate().map(|(index, entry)| (Symbol(index as u32), entry))
     }
 
+    /// The name with a meaning, as a formula; `None` where nothing has it.
+    pub fn formula_of(&self, meaning: Meaning) -> Option<Formula> {
+        let (symbol, own) = self.iter().find(|(_, own)| own.meaning == meaning)?;
+        Some(Formula::symbol(&own.name, symbol, own.kind))
+    }
+
     /// Returns a formula with the abbreviations it uses, directly or through others.
     pub fn with_abbreviations<'f>(
         &self,

@@ -6,7 +6,7 @@ use super::judge::{Options, Trust};
 use super::recorded::RecordedClaim;
 use super::restriction::Flaw;
 use crate::case::Case;
-use crate::claim::ClaimKind;
+use crate::claim::{ClaimKind, PlaceName};
 
 /// Remark on a value that is shown not to vanish at some states, and may vanish at others.
 const ON_A_PART: &str = "shown on a part of the states only: where a modulus, or a root that depends on \
@@ -98,7 +98,7 @@ pub fn report(
         evidence.remark = evidence.remark.or_else(|| claim.kind.remark_on_refutation(&case.model));
     }
     let place = claim.place.name(&case.model);
-    if holds && matches!(claim.kind, ClaimKind::Density(_)) && place != "everywhere" {
+    if holds && matches!(claim.kind, ClaimKind::Density(_)) && place != PlaceName::Everywhere {
         let functions: Vec<&str> = case
             .model
             .level
@@ -134,21 +134,15 @@ pub fn report(
         evidence.reason = Some("the claim says that it holds only there".to_string());
     }
     if claim.kind.is_at_images() {
-        for name in &mut evidence.holds {
-            let states = match name.as_str() {
-                "everywhere" => "all states",
-                "level" => "the level",
-                equation => equation,
-            };
-            *name = format!("at the images of {states}");
-        }
+        let of = |place| PlaceName::ImagesOf(Box::new(place));
+        evidence.holds = evidence.holds.into_iter().map(of).collect();
     }
     ClaimReport {
         name: claim.name.clone(),
         formula: claim.kind.text(),
         kind: claim.kind.name(),
         source: claim.source.clone(),
-        place,
+        place: place.to_string(),
         expect: claim.expect,
         verdict,
         agrees,

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::restriction::Flaw;
 use crate::case::Expect;
-use crate::claim::Assumption;
+use crate::claim::{Assumption, PlaceName};
 use crate::proof::Certificate;
 
 /// Verdict on a claim.
@@ -247,7 +247,7 @@ pub struct Evidence {
     pub operations: usize,
     /// Places where the claim was seen to hold, widest first: `everywhere`, an equation, `level`.
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub holds: Vec<String>,
+    pub holds: Vec<PlaceName>,
     /// Independence, for integrals that hold.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub independence: Option<Independence>,

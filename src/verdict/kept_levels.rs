@@ -9,10 +9,9 @@ use super::field::{Answer, PrimeFieldStates, Query, Where};
 use super::judge::{JudgeError, Trust};
 use super::judging::Judging;
 use super::ladder::LADDER_BITS;
-use super::level_slopes::EVERYWHERE;
 use super::recorded::RecordedClaim;
 use super::sampler::Sampler;
-use crate::claim::{LevelSubset, OfMotions};
+use crate::claim::{LevelSubset, OfMotions, PlaceName};
 use crate::graph::{Expr, Fault};
 use crate::number::Enclosing;
 use crate::number::mixed::{Mixed, Number};
@@ -54,7 +53,7 @@ impl Judging<'_> {
                 && !status.is_combination
                 && kept.iter().any(|kept| *kept)
                 && item.claim.kind.of_motions() != OfMotions::Nothing
-                && !status.evidence.holds.iter().any(|place| place == EVERYWHERE);
+                && !status.evidence.holds.contains(&PlaceName::Everywhere);
             if !rests_on_level || self.is_kept_everywhere(kept) {
                 continue;
             }

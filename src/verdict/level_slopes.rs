@@ -8,13 +8,10 @@ use super::judging::Judging;
 use super::recorded::RecordedClaim;
 use super::sampler::{Sampler, TAPE_LANES};
 use super::witness::briefly;
-use crate::claim::OfMotions;
+use crate::claim::{OfMotions, PlaceName};
 use crate::graph::{Expr, Fault};
 use crate::mechanics::combinations;
 use crate::number::rational::Rational;
-
-/// Place of a claim that does not rest on the level.
-pub(super) const EVERYWHERE: &str = "everywhere";
 
 /// An equation of the level whose slope is not known to be independent of those before it at almost every
 /// state.
@@ -194,7 +191,7 @@ impl Judging<'_> {
                 || status.settled == Some(Verdict::Undecided)
                 // A state at which the residual is not 0 refutes, unless no motion belongs to it.
                 || (!found.is_lost && status.settled != Some(Verdict::Proved))
-                || evidence.holds.iter().any(|place| place == EVERYWHERE)
+                || evidence.holds.contains(&PlaceName::Everywhere)
                 || (subject == OfMotions::Constancy && self.is_kept_everywhere(kept))
             {
                 continue;

@@ -7,7 +7,6 @@ use crate::claim::LevelSubset;
 use crate::graph::{Evaluator, Expr, Fault, Graph, Step, Tape, record};
 use crate::mechanics::calculus::DualPoint;
 use crate::mechanics::{Chart, Draw, NumberLine, Phase, combinations};
-use crate::number::UnaryFunction;
 use crate::number::ball::{Ball, Balls};
 use crate::number::rational::Rational;
 use crate::proof::{Determination, Group, Prover, is_nowhere_zero, sign};
@@ -217,7 +216,7 @@ fn is_nonzero_somewhere(graph: &Graph, sampler: &Sampler, value: Expr) -> bool {
 /// if they contain moduli.
 fn edges(graph: &Graph, values: &[Expr]) -> Option<Vec<Expr>> {
     let reached = graph.reached(values.iter().copied());
-    let is_modulus = |step: Step<'_>| matches!(step, Step::Unary(UnaryFunction::Abs, _));
+    let is_modulus = |step: Step<'_>| step.is_modulus();
     let mut steps = graph.steps().zip(&reached).filter(|(_, reached)| **reached);
     let has_moduli = steps.any(|(step, _)| is_modulus(step));
     (!has_moduli).then(|| graph.needs(&reached).map(|(place, _)| graph.at(place)).collect())

@@ -12,7 +12,7 @@ use super::sampler::{PlaceParts, Sampler, TAPE_LANES};
 use crate::claim::LevelSubset;
 use crate::graph::Fault;
 use crate::mechanics::{Chart, Draw, combinations};
-use crate::proof::fewest;
+use crate::proof::{fewest, sum_log2};
 
 /// Samplers of the parts of a place, for each choice of listed parameter values.
 pub type Pieces = Rc<[Vec<Sampler>]>;
@@ -347,14 +347,13 @@ impl Evidence {
 impl Proof {
     /// Combines the proofs of two parts of a statement.
     fn and(self, other: &Self) -> Self {
-        // log₂(2^a + 2^b) ≤ max + 1
         Self {
             primes: self.primes.max(other.primes),
             points: fewest(self.points, other.points),
             draws: self.draws.max(other.draws),
             degree: self.degree.max(other.degree),
             roots: self.roots.max(other.roots),
-            error_log2: self.error_log2.max(other.error_log2) + 1.0,
+            error_log2: sum_log2(self.error_log2, other.error_log2),
         }
     }
 }

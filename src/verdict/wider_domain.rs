@@ -21,9 +21,8 @@ use super::preimages::SecondState;
 use super::recorded::{RecordedClaim, Wider};
 use super::run::{Doubles, Values};
 use super::sampler::{Sampler, TAPE_LANES};
-use crate::claim::{Condition, LevelSubset, Need};
-use crate::graph::{Expr, Fault, Step};
-use crate::number::UnaryFunction;
+use crate::claim::{Condition, LevelSubset, Need, PlaceName};
+use crate::graph::{Expr, Fault};
 use crate::number::ball::Ball;
 
 /// A claim that holds at its own place, with the positions of its outputs for a wider one.
@@ -90,7 +89,7 @@ impl Judging<'_> {
         let mut candidates = Vec::new();
         for (item, status) in recorded.iter().zip(statuses.iter_mut()) {
             let wider = item.wider.iter().find(|wider| wider.place == *place);
-            let covered = status.evidence.holds.iter().any(|name| name == "everywhere");
+            let covered = status.evidence.holds.contains(&PlaceName::Everywhere);
             let is_asked = |wider: &Wider| {
                 status.holds()
                     || (status.settled == Some(Verdict::Undecided) && self.is_total(item, wider))
@@ -265,17 +264,12 @@ impl Judging<'_> {
         let required = self.common.required_at(&item.claim.place.kept);
         let values = [&wider.residual[..], &wider.defects, &item.requirement, &required].concat();
         let reached = self.graph.reached(values);
-        let is_root = |step: Step<'_>| match step {
-            Step::Unary(UnaryFunction::Sqrt, _) => true,
-            Step::Power(_, exponent) => exponent.to_integer().is_none(),
-            _ => false,
-        };
         is_space
             && wider.residual == item.residual
             && !item.claim.kind.is_negated()
             && (self.graph.left_out(&required, &item.presence).is_empty()
                 || self.is_total(item, wider))
-            && !self.graph.steps().zip(reached).any(|(step, reached)| reached && is_root(step))
+            && !self.graph.steps_at(&reached).any(|(_, step)| step.is_root())
     }
 }
 
@@ -311,7 +305,7 @@ impl<'f, 'r> Candidate<'f, 'r> {
 }
 
 /// Settles a confirmed claim as proved, by a proof at a place that contains its own.
-fn prove(status: &mut ClaimState, proof: Proof, place: &str) {
+fn prove(status: &mut ClaimState, proof: Proof, place: &PlaceName) {
     status.rung(Method::PrimeField, format!("{place}: {proof}"));
     status.evidence.method = Method::PrimeField;
     status.evidence.proof = Some(proof);

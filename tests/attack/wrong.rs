@@ -1,5 +1,6 @@
 //! Comparison of verdicts with the truth.
 
+use liouville::claim::PlaceName;
 use std::borrow::Cow;
 
 use liouville::verdict::{ClaimReport, DensitySign, Independence, Method, Verdict};
@@ -226,7 +227,7 @@ fn beside(
     if claim.is_negated() || !matches!(report.verdict, Verdict::Proved | Verdict::Confirmed) {
         return None;
     }
-    let widest = evidence.holds.iter().any(|place| place == "everywhere");
+    let widest = evidence.holds.contains(&PlaceName::Everywhere);
     if widest && scene.level.is_some() && report.verdict == Verdict::Proved {
         let space = scene.without_level();
         if searched(&space, claim, stream, 1).off > 0 {

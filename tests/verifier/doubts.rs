@@ -13,6 +13,7 @@ mod vacuous;
 mod witnesses;
 
 use liouville::case::Case;
+use liouville::claim::PlaceName;
 use liouville::verdict::{
     CaseReport, ClaimReport, DensitySign, Independence, JudgeError, Options, Verdict, evaluate,
     judge,
@@ -51,10 +52,7 @@ fn a_quadrature_is_looked_at_in_wider_places_too() {
     let text = "title = 'x'\nsystem = 'rubber-plane'\n[parameters]\nm = 1\nR = 2\nI = [1, 2, 2.5]\n[body]\n\
                 shape = 'ball'\n[[claim]]\nintegral = '∫(γ1*(γ,γ), γ1) − ½*γ1²*(γ,γ)'\n";
     let holds = &claims(text)[0].evidence.holds;
-    assert!(
-        !holds.contains(&"everywhere".to_string()),
-        "off |γ| = 1 there is no such ∫: {holds:?}"
-    );
+    assert!(!holds.contains(&PlaceName::Everywhere), "off |γ| = 1 there is no such ∫: {holds:?}");
 }
 
 #[test]
@@ -255,7 +253,7 @@ fn a_proof_goes_no_further_than_it_was_made() {
          where = 'level only'\n[[claim]]\nintegral = 'x/y'\nwhere = 'level only'\n",
     ));
     assert!(found.iter().all(|claim| claim.verdict == Verdict::Proved), "on z = 0");
-    assert_eq!(found[0].evidence.holds, ["level"], "the field is silent off it");
+    assert_eq!(found[0].evidence.holds, [PlaceName::Level], "the field is silent off it");
     assert!(found[1].agrees, "rounding does not contradict: {:?}", found[1].evidence.holds);
     assert!(!found[2].agrees, "a proof does");
 }

@@ -30,7 +30,7 @@ fn a_wider_place_that_the_motion_leaves_is_not_named() {
     let holds = |z: &str| {
         let found = reports(z, "'x = 0', 'y = 0'", &["integral = 'w'"]).expect("a report");
         assert_eq!(found[0].verdict, Verdict::Proved, "{z}");
-        found[0].evidence.holds.clone()
+        found[0].evidence.holds.iter().map(ToString::to_string).collect::<Vec<_>>()
     };
     assert_eq!(
         holds("-0.001..1"),

@@ -2,6 +2,7 @@
 //! the matrix is regular, also where a leading minor of it is 0.
 
 use liouville::case::Case;
+use liouville::claim::PlaceName;
 use liouville::mechanics::System;
 use liouville::verdict::{Options, Verdict, judge};
 
@@ -231,7 +232,7 @@ fn masses_are_asked_at_wider_places_too() {
     let case = Case::parse(text, &[]).expect("a case");
     let found = judge(&case, &Options::default()).expect("a report");
     assert_eq!(found.claims[0].verdict, Verdict::Proved);
-    assert!(!found.claims[0].evidence.holds.contains(&"everywhere".to_string()));
+    assert!(!found.claims[0].evidence.holds.contains(&PlaceName::Everywhere));
 }
 
 #[test]

@@ -323,3 +323,48 @@ fn builders_return_the_first_mistake() {
     assert!(begun.clone().support("|γ|").potential("U").build().is_err(), "U is not known in U");
     assert!(begun.support("|γ|").rate("ω", "γ").build().is_err(), "the rate of ω is known");
 }
+
+#[test]
+fn maps_are_built_as_values() {
+    let map = || Model::map().parameter("a", "1..2").state("x", "1..2", "y/a");
+    let built = map().state("y", "1..2", "a*x").build().expect("a map");
+    let claims = [
+        Claim::integral(built.formula("x*y").expect("a formula")),
+        Claim::integral(built.formula("x + y").expect("a formula")).expected(Expect::Fails),
+    ];
+    let report = built.judge(&claims, &Options::default()).expect("judged");
+    assert!(report.claims.iter().all(|claim| claim.agrees), "x*y is kept, and x + y is not");
+    let refused = |built: Result<Case, liouville::case::ClaimError>| {
+        built.map(|_| ()).expect_err("refused").to_string()
+    };
+    let missing = refused(map().variable("y", "1..2").build());
+    assert!(missing.contains("the image is missing"), "{missing}");
+    let open = refused(map().state("y", "1..2", "∫(exp(x²), x)").build());
+    assert!(open.contains("an image cannot contain ∫"), "{open}");
+}
+
+#[test]
+fn levels_have_charts_as_values() {
+    let circle = || {
+        let free = Model::field().state("x", "-1..1", "-y").state("y", "-1..1", "x");
+        free.level("x² + y²", "1")
+    };
+    let inputs = || [("u".to_string(), "-2..2")];
+    let formulas = |y: &str| {
+        let x = ("x".to_string(), "2*u/(1 + u²)".to_string());
+        [x, ("y".to_string(), y.to_string())]
+    };
+    let built = circle().chart(inputs(), formulas("(1 − u²)/(1 + u²)")).build().expect("a case");
+    let one = built.formula("x² + y²").expect("a formula");
+    let claim = Claim::identity(&one, &Formula::number(1));
+    let report = built.judge(&[claim], &Options::default()).expect("judged");
+    assert_eq!(report.claims[0].verdict, Verdict::Proved);
+    let refused = |y: &str| {
+        let built = circle().chart(inputs(), formulas(y)).build();
+        built.map(|_| ()).expect_err("refused").to_string()
+    };
+    assert!(refused("z").contains("y"), "z is no name of the chart: {}", refused("z"));
+    assert!(refused("[u, u]").contains("vector"), "{}", refused("[u, u]"));
+    let taken = circle().chart([("x".to_string(), "nonsense")], formulas("u")).build();
+    assert!(taken.is_err(), "an input needs a range");
+}

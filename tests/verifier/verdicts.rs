@@ -4,6 +4,7 @@ mod progress;
 mod steady;
 
 use liouville::case::Case;
+use liouville::claim::PlaceName;
 use liouville::verdict::{
     ClaimReport, DensitySign, Independence, JudgeError, Options, Trust, Verdict, judge,
 };
@@ -55,9 +56,17 @@ fn the_place_where_a_claim_holds_is_found() {
          where = 'everywhere'\nexpect = 'fails'\n[[claim]]\nintegral = 'energy'\nwhere = '(ω,γ) = 0'\n"
     );
     let found = claims(&text);
-    assert_eq!(found[0].evidence.holds, ["everywhere"]);
-    assert_eq!(found[1].evidence.holds, ["(ω,γ) = 0"], "any |γ|, but no spinning");
-    assert_eq!(found[2].evidence.holds, ["(ω,γ) = 0"], "a multiple of (ω,γ) does no harm there");
+    assert_eq!(found[0].evidence.holds, [PlaceName::Everywhere]);
+    assert_eq!(
+        found[1].evidence.holds,
+        [PlaceName::Equations("(ω,γ) = 0".to_string())],
+        "any |γ|, but no spinning"
+    );
+    assert_eq!(
+        found[2].evidence.holds,
+        [PlaceName::Equations("(ω,γ) = 0".to_string())],
+        "a multiple of (ω,γ) does no harm there"
+    );
     assert!(found.iter().all(|claim| claim.agrees), "all five come out as expected");
 }
 
@@ -123,7 +132,11 @@ fn charts_solved_and_given_agree() {
         assert_eq!(verdicts[..2], [verdict, Verdict::Refuted], "{level}");
         assert_ne!(verdicts[2], Verdict::Refuted, "{level}");
         assert_eq!(found[0].evidence.method.name(), method, "{level}");
-        assert_eq!(found[0].evidence.holds, [holds], "M1 spoils it elsewhere: {level}");
+        assert_eq!(
+            found[0].evidence.holds.iter().map(ToString::to_string).collect::<Vec<_>>(),
+            [holds],
+            "M1 spoils it elsewhere: {level}"
+        );
     }
 }
 
@@ -145,7 +158,7 @@ fn what_holds_everywhere_is_proved_on_a_level_that_nothing_solves() {
     assert_eq!(verdicts, [Proved, Confirmed, Proved, Refuted]);
     assert_eq!(found[0].evidence.method.name(), "prime field");
     assert!(found[0].evidence.proof.is_some(), "with its error bound");
-    assert_eq!(found[0].evidence.holds, ["everywhere"]);
+    assert_eq!(found[0].evidence.holds, [PlaceName::Everywhere]);
     assert!(found[1].evidence.proof.is_none(), "nothing is proved at numerical states");
 }
 

@@ -15,7 +15,7 @@ fn places(f: &str, s: &str) -> Vec<String> {
         judge(&case, &Options::default()).unwrap_or_else(|error| panic!("{error}\n{text}"));
     let claim = &report.claims[0];
     assert_eq!(claim.verdict, Verdict::Proved, "{f}: {:?}", claim.evidence);
-    claim.evidence.holds.clone()
+    claim.evidence.holds.iter().map(ToString::to_string).collect()
 }
 
 #[test]
@@ -42,7 +42,7 @@ fn maps_that_can_be_inverted_on_a_level_may_not_be_elsewhere() {
         let case = Case::parse(&text, &[]).expect("a case");
         let report = judge(&case, &Options::default()).expect("a report");
         assert_eq!(report.claims[0].verdict, Verdict::Proved);
-        report.claims[0].evidence.holds.clone()
+        report.claims[0].evidence.holds.iter().map(ToString::to_string).collect::<Vec<_>>()
     };
     for factor in ["√((z - 1/2)²) + z - 1/2", "exp(ln(z²)/2) + z", "acos(cos(z)) + z"] {
         assert_eq!(places(factor), ["level"], "{factor}");

@@ -2,7 +2,7 @@
 
 use serde_json::json;
 
-use liouville_search::{FURTHER_INTEGRAL, MultiplierReport, SearchReport};
+use liouville_search::{FoundKind, Given, MultiplierReport, SearchReport};
 
 /// Renders the report as JSON.
 pub fn json(title: &str, report: &SearchReport) -> Result<String, serde_json::Error> {
@@ -56,18 +56,16 @@ pub fn text(title: &str, report: &SearchReport) -> String {
         out.push_str(&format!("\n{}\n", last.sentence()));
     }
     for found in &report.found {
-        out.push_str(&format!("\n{} {}\n  {}\n", found.kind, found.verdict.word(), found.formula));
-        for (what, text) in &found.with {
-            out.push_str(&match *what {
+        out.push_str(&format!("\n{} {}\n  {}\n", found.kind, found.verdict.word(), found.text()));
+        for own in &found.with {
+            let relation = match own {
                 // Its source, and no condition.
-                "bracket" if found.kind == FURTHER_INTEGRAL => {
-                    format!("  as the bracket {text}\n")
-                }
-                "derivative along" => format!("  as the derivative along {text}\n"),
-                what => format!("  with the {what} {text}\n"),
-            });
+                Given::Bracket(_) | Given::DerivativeAlong(_) => "as",
+                _ => "with",
+            };
+            out.push_str(&format!("  {relation} the {} {}\n", own.name(), own.text()));
         }
-        if found.kind == FURTHER_INTEGRAL {
+        if found.kind == FoundKind::FurtherIntegral {
             out.push_str(
                 "  near almost every state a function of the integrals known, though no polynomial in \
                  them of its degree\n",

@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 
 use liouville::case::Case;
 use liouville::verdict::Verdict;
-use liouville_search::{Effort, Halt, SearchReport, search};
+use liouville_search::{Effort, FoundKind, Halt, SearchReport, search};
 
 /// Folder that is searched without arguments.
 const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/benchmark/pegasus");
@@ -38,20 +38,20 @@ fn row(path: &Path, limit: Option<f64>) -> Row {
         Ok((known, report)) => (known, report, None),
         Err(failure) => (None, SearchReport::default(), Some(failure)),
     };
-    let proved = |kind: &str| {
+    let proved = |kind: FoundKind| {
         let own = report.found.iter().filter(|found| found.kind == kind);
         let own = own.filter(|found| found.verdict == Verdict::Proved);
-        own.filter(|found| kind != "density" || found.formula != "1").count()
+        own.filter(|found| kind != FoundKind::Density || found.text() != "1").count()
     };
     let line = |found: &liouville_search::Found| {
         let with: Vec<String> =
-            found.with.iter().map(|(what, text)| format!("{what} {text}")).collect();
-        format!("{} {}   {}", found.kind, found.formula, with.join(", "))
+            found.with.iter().map(|own| format!("{} {}", own.name(), own.text())).collect();
+        format!("{} {}   {}", found.kind, found.text(), with.join(", "))
     };
     Row {
         name,
-        found: [proved("integral"), proved("darboux-polynomial"), proved("density")],
-        of_time: proved("function-of-constant-rate"),
+        found: [FoundKind::Integral, FoundKind::DarbouxPolynomial, FoundKind::Density].map(proved),
+        of_time: proved(FoundKind::ConstantRate),
         known,
         unproved: report.found.iter().filter(|found| found.verdict != Verdict::Proved).count(),
         seconds,

@@ -4,7 +4,7 @@ use super::ansatz::monomials::AnsatzVariables;
 use super::ask::{judged_alone, proved_energy};
 use super::local::Coordinates;
 use super::origin::RemarkOrigin;
-use super::{Effort, SearchError, SearchReport};
+use super::{Effort, FoundKind, SearchError, SearchReport};
 use liouville::case::Case;
 use liouville::claim::{Claim, MOST_COMPARED};
 use liouville::formula::Formula;
@@ -14,9 +14,9 @@ use liouville::verdict::Verdict;
 /// coordinates has: any other one is a function of them near almost every state.
 pub fn are_all(case: &Case, effort: &Effort, report: &SearchReport) -> Result<bool, SearchError> {
     let Ok(coordinates) = Coordinates::of(case) else { return Ok(false) };
-    let own = report.of_case("integral").filter(|own| own.verdict == Verdict::Proved);
+    let own = report.of_case(FoundKind::Integral).filter(|own| own.verdict == Verdict::Proved);
     let mut all: Vec<Formula> = proved_energy(case, effort)?.into_iter().collect();
-    all.extend(own.filter_map(|own| own.function.clone()));
+    all.extend(own.filter_map(|own| own.function().cloned()));
     if all.len() + 1 != coordinates.count() || all.len() > MOST_COMPARED {
         return Ok(false);
     }

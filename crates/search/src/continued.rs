@@ -62,7 +62,7 @@ impl Drawn {
         let (graph, values) = recorded(case, |jet| jet.phase.literal_values([formula]))?;
         let reached = graph.reached(values.iter().copied());
         let base = |step: Step<'_>| {
-            let is_root = is_root(&step) && !matches!(step, Step::Unary(UnaryFunction::Abs, _));
+            let is_root = step.is_root();
             step.arguments().next().filter(|_| is_root || is_logarithm(&step))
         };
         let steps = graph.steps().zip(reached).filter(|(_, is_reached)| *is_reached);
@@ -167,20 +167,20 @@ fn has_independent_roots(
     seed: u64,
 ) -> Result<bool, SearchError> {
     let reached = graph.reached(values.iter().copied());
-    let steps = || graph.steps().enumerate().filter(|(place, _)| reached[*place]);
+    let steps = || graph.steps_at(&reached);
     let mut contains_function = vec![false; graph.len()];
     let (mut functions, mut bases) = (Vec::new(), Vec::new());
     for (place, step) in steps() {
         let is_below = step.arguments().any(|a| contains_function[a]);
-        contains_function[place] = is_below || is_function(&step);
-        let winding = step.arguments().next().filter(|_| is_root(&step) || is_logarithm(&step));
+        contains_function[place] = is_below || step.is_transcendental();
+        let winding = step.arguments().next().filter(|_| is_branched(&step) || is_logarithm(&step));
         // An exponential has no zeros to wind about, and functions may be related.
         let is_winding_arc = matches!(step, Step::Unary(UnaryFunction::Atan, _));
         if is_winding_arc || winding.is_some_and(|base| contains_function[base]) {
             return Ok(false);
         }
         bases.extend(winding.filter(|_| is_logarithm(&step)));
-        functions.extend(is_function(&step).then_some(place));
+        functions.extend(step.is_transcendental().then_some(place));
     }
     let first = graph.inputs();
     extents.resize(first + functions.len(), Extent::ALL);
@@ -202,26 +202,13 @@ fn has_independent_roots(
 }
 
 /// Whether a step has branches.
-fn is_root(step: &Step<'_>) -> bool {
-    match step {
-        Step::Unary(UnaryFunction::Sqrt | UnaryFunction::Abs, _) => true,
-        Step::Power(_, exponent) => exponent.to_integer().is_none(),
-        _ => false,
-    }
+fn is_branched(step: &Step<'_>) -> bool {
+    step.is_root() || step.is_modulus()
 }
 
 /// Whether a step winds with its argument.
 fn is_logarithm(step: &Step<'_>) -> bool {
     matches!(step, Step::Unary(UnaryFunction::Ln, _) | Step::Binary(BinaryOperation::Pow, ..))
-}
-
-/// Whether a step has no values modulo a prime.
-fn is_function(step: &Step<'_>) -> bool {
-    use UnaryFunction::{Atan, Cos, Exp, Ln, Sin};
-    matches!(
-        step,
-        Step::Unary(Exp | Ln | Sin | Cos | Atan, _) | Step::Binary(BinaryOperation::Pow, ..)
-    )
 }
 
 /// Forms of the values that are reached, by place; inputs behind the extents have none.

@@ -156,7 +156,7 @@ impl<'c> CountedMotion<'c> {
             ));
             if seconds > effort.seconds {
                 report.remark(format!(
-                    "degree {degree} was not counted: {unknowns} unknowns take {seconds:.0} s and more; raise --seconds"
+                    "degree {degree} was not counted: {unknowns} unknowns take {seconds:.0} s and more; raise --count-seconds"
                 ));
                 return Ok(());
             }

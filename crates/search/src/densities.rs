@@ -10,7 +10,7 @@ use super::linear::SampledFunctions;
 use super::orbit::merged;
 use super::terms::{Power, multiplied, one, powers, recorded};
 use super::written::mass_densities;
-use super::{Effort, Found, SearchError, SearchReport};
+use super::{Effort, Found, FoundKind, SearchError, SearchReport};
 use liouville::case::Case;
 use liouville::claim::{Claim, LevelSubset};
 use liouville::formula::Formula;
@@ -56,7 +56,7 @@ pub fn densities(
             let formula = multiplied(&product)?;
             let judged = judged_alone(case, Claim::density(&formula), effort)?;
             if let Some(found) = judged.filter(holds) {
-                report.found.push(Found::new("density", &formula, None, found, model));
+                report.found.push(Found::new(FoundKind::Density, &formula, None, found, model));
             }
         }
         Exponents::Unknown => tell_volume(case, effort, report)?,
@@ -79,7 +79,7 @@ fn masses(case: &Case, effort: &Effort, report: &mut SearchReport) -> Result<(),
     for density in mass_densities(case) {
         let judged = judged_alone(case, Claim::density(&density), effort)?;
         if let Some(found) = judged.filter(|own| own.verdict == Verdict::Proved) {
-            report.found.push(Found::new("density", &density, None, found, &case.model));
+            report.found.push(Found::new(FoundKind::Density, &density, None, found, &case.model));
             break;
         }
     }
@@ -94,7 +94,7 @@ pub fn tell_volume(
 ) -> Result<(), SearchError> {
     let judged = judged_alone(case, Claim::density(one()), effort)?;
     if let Some(found) = judged.filter(|own| own.verdict == Verdict::Proved) {
-        report.found.push(Found::new("density", &one(), None, found, &case.model));
+        report.found.push(Found::new(FoundKind::Density, &one(), None, found, &case.model));
     }
     Ok(())
 }

@@ -2,6 +2,16 @@
 
 use liouville::number::prime::Modulus;
 
+/// Places of the entries of a vector that are not 0.
+pub fn nonzero(vector: &[u64]) -> Vec<usize> {
+    (0..vector.len()).filter(|place| vector[*place] != 0).collect()
+}
+
+/// Number of bytes that so many entries of sparse rows take, each a value with its column.
+pub fn bytes(entries: usize) -> u64 {
+    (entries * (size_of::<u64>() + size_of::<u32>())) as u64
+}
+
 /// A set of independent rows with distinct pivots.
 #[derive(Clone)]
 pub struct Echelon {
@@ -132,7 +142,7 @@ impl Echelon {
 
     /// Number of bytes that the rows take.
     pub fn bytes(&self) -> u64 {
-        (self.entries * (size_of::<u64>() + size_of::<u32>())) as u64
+        bytes(self.entries)
     }
 
     /// Iterates over the independent rows, reduced by those before them.

@@ -39,7 +39,7 @@ pub enum SearchError {
     #[error("the count of integrals of degree {0} did not stabilise: there may be infinitely many")]
     Unsettled(u32),
     /// The elimination takes more steps than the effort allows.
-    #[error("{unknowns} unknowns take more than {seconds} s; raise --seconds")]
+    #[error("{unknowns} unknowns take more than {seconds} s; raise --count-seconds")]
     Long {
         /// Number of unknowns.
         unknowns: usize,
@@ -47,13 +47,13 @@ pub enum SearchError {
         seconds: f64,
     },
     /// The series of orbits take more steps than the effort allows.
-    #[error("series of orbits take more than {seconds} s; raise --seconds")]
+    #[error("series of orbits take more than {seconds} s; raise --count-seconds")]
     Series {
         /// Limit that was reached.
         seconds: f64,
     },
     /// The elimination takes more memory than the effort allows.
-    #[error("{unknowns} unknowns take more than {megabytes} MB; raise --megabytes")]
+    #[error("{unknowns} unknowns take more than {megabytes} MB; raise --count-megabytes")]
     Large {
         /// Number of unknowns.
         unknowns: usize,
@@ -78,6 +78,9 @@ pub enum SearchError {
     /// The candidate is not a valid claim for this case.
     #[error("the candidate is not a valid claim for this case: {0}")]
     Unfit(#[from] ClaimError),
+    /// A field or map of the search itself cannot be built.
+    #[error("a system of the search cannot be built: {0}")]
+    Unbuilt(ClaimError),
     /// A formula cannot be made of others.
     #[error("the formula of a candidate cannot be written: {0}")]
     Unwritten(#[from] FormulaError),

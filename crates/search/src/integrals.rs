@@ -13,7 +13,7 @@ use super::momenta;
 use super::origin::RemarkOrigin;
 use super::second_opinion::{self, second_opinion};
 use super::terms::{is_one, recorded, sum};
-use super::{Effort, Found, SearchError, SearchReport};
+use super::{Effort, Found, FoundKind, SearchError, SearchReport};
 use liouville::case::Case;
 use liouville::claim::{Claim, LevelSubset};
 use liouville::formula::{Formula, FormulaError};
@@ -57,7 +57,7 @@ pub fn integrals(
         effort.halt.check()?;
         tell(case, &formula, found, effort, report)?;
         // Others may be no polynomials in those that are told.
-        let is_told = report.found.iter().any(|own| own.formula == formula.text());
+        let is_told = report.found.iter().any(|own| own.text() == formula.text());
         if !is_told && report.dependent.len() < MOST_DEPENDENT {
             report.dependent.push(formula);
         }
@@ -99,7 +99,7 @@ pub fn tell(
     if found.evidence.independence == Some(Independence::Constant) {
         return Ok(());
     }
-    let told: Vec<Formula> = report.functions("integral").cloned().collect();
+    let told: Vec<Formula> = report.functions(FoundKind::Integral).cloned().collect();
     if !are_comparable(case, &told) {
         let count = told.len();
         report.remark(format!(
@@ -111,7 +111,7 @@ pub fn tell(
         return prefer(case, formula, found, effort, report);
     }
     let known = claimed_by(case, formula, effort, report)?;
-    report.found.push(Found::new("integral", formula, known, found, &case.model));
+    report.found.push(Found::new(FoundKind::Integral, formula, known, found, &case.model));
     Ok(())
 }
 

@@ -40,7 +40,7 @@ pub fn is_absent(graph: &Graph, outputs: &[Expr]) -> bool {
     let reached = graph.reached(outputs.iter().copied());
     let mut is_number = vec![false; reached.len()];
     let mut is_irrational = vec![false; reached.len()];
-    for (place, step) in graph.steps().enumerate().filter(|(place, _)| reached[*place]) {
+    for (place, step) in graph.steps_at(&reached) {
         let is_root = !step.is_rational();
         is_irrational[place] = step.arguments().any(|argument| is_irrational[argument]);
         if is_root && is_irrational[place] {
@@ -85,7 +85,7 @@ impl Radicands {
         let mut depth = vec![0usize; reached.len()];
         let mut known: Vec<usize> = Vec::new();
         let mut found = Self::default();
-        for (place, step) in graph.steps().enumerate().filter(|(place, _)| reached[*place]) {
+        for (place, step) in graph.steps_at(&reached) {
             is_number[place] =
                 !matches!(step, Step::Input(_)) && step.arguments().all(|k| is_number[k]);
             has_root_of_function[place] = step.arguments().any(|k| has_root_of_function[k]);

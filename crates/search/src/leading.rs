@@ -9,8 +9,8 @@ use liouville::formula::Formula;
 use liouville::verdict::Verdict;
 
 use super::ask::judged_alone;
-use super::orbit::{CONSTANT_RATE, FURTHER_INTEGRAL, joined_terms as joined, signed_terms};
-use super::{Effort, Found, SearchError, SearchReport};
+use super::orbit::{joined_terms as joined, signed_terms};
+use super::{Effort, Found, FoundFormula, FoundKind, Given, SearchError, SearchReport};
 
 /// Writes the finds of a report without leading minus signs, where that is proved to be the same.
 pub fn write_without_minus(
@@ -20,15 +20,15 @@ pub fn write_without_minus(
 ) -> Result<(), SearchError> {
     for place in 0..report.found.len() {
         let own = &report.found[place];
-        if !own.formula.starts_with(['−', '-']) || !own.abbreviations.is_empty() {
+        if !own.text().starts_with(['−', '-']) || !own.abbreviations.is_empty() {
             continue;
         }
         effort.halt.check()?;
         let Some(changed) = changed(case, effort, own)? else { continue };
         let before = std::mem::replace(&mut report.found[place], changed);
-        let after = &report.found[place].formula;
+        let after = report.found[place].text();
         for own in &mut report.excluded {
-            own.theorem = replaced(&own.theorem, &before.formula, after);
+            own.theorem = replaced(&own.theorem, before.text(), after);
         }
     }
     Ok(())
@@ -36,13 +36,13 @@ pub fn write_without_minus(
 
 /// The find with another formula, proved to be the same or its negative.
 fn changed(case: &Case, effort: &Effort, own: &Found) -> Result<Option<Found>, SearchError> {
-    let Some(function) = &own.function else { return Ok(None) };
-    let terms = signed_terms(&own.formula);
-    let has_value = |with: &[&str]| own.with.iter().all(|(what, _)| with.contains(what));
-    let is_falling = || own.with.iter().any(|(_, rate)| rate.starts_with('−'));
+    let Some(function) = own.function() else { return Ok(None) };
+    let terms = signed_terms(own.text());
+    let has_rate_alone = || own.with.iter().all(|own| matches!(own, Given::Rate(_)));
+    let is_falling = || own.with.iter().any(|own| own.text().starts_with('−'));
     let may_turn = match own.kind {
-        "integral" | FURTHER_INTEGRAL => true,
-        CONSTANT_RATE => has_value(&["rate"]) && is_falling(),
+        FoundKind::Integral | FoundKind::FurtherIntegral => true,
+        FoundKind::ConstantRate => has_rate_alone() && is_falling(),
         _ => false,
     };
     let text = match may_turn {
@@ -66,12 +66,14 @@ fn changed(case: &Case, effort: &Effort, own: &Found) -> Result<Option<Found>, S
             false => joined(terms.iter().map(|(is_negative, text)| (!is_negative, *text))),
         }
     };
-    let with = own.with.iter().map(|(what, text)| match *what {
-        "rate" if may_turn => (*what, turned(text)),
-        what => (what, text.clone()),
-    });
-    let with = with.collect();
-    Ok(Some(Found { formula: formula.to_string(), function: Some(formula), with, ..own.clone() }))
+    let mut with = own.with.clone();
+    for own in with.iter_mut().filter(|_| may_turn) {
+        if let Given::Rate(rate) = own {
+            let Ok(rate) = case.formula(&turned(rate.text())) else { return Ok(None) };
+            *own = Given::Rate(rate);
+        }
+    }
+    Ok(Some(Found { formula: FoundFormula::Function(formula), with, ..own.clone() }))
 }
 
 /// The opposite of a formula, a term that is added first where there is one.

@@ -29,6 +29,7 @@ mod echelon;
 mod effort;
 mod error;
 mod expansion;
+mod found;
 mod halt;
 mod hypotheses;
 mod integrals;
@@ -75,12 +76,13 @@ pub use conditions::{ConditionTarget, ParameterCondition};
 pub use counts::{CountEstimate, CountReport, plan};
 pub use effort::{Effort, FurtherTerm};
 pub use error::SearchError;
+pub use found::{Found, FoundFormula, FoundKind, Given};
 pub use halt::Halt;
 pub use meter::Meter;
 pub use multipliers::MultiplierReport;
-pub use orbit::{FURTHER_INTEGRAL, OrbitReport};
+pub use orbit::OrbitReport;
 pub use origin::{ConditionOrigin, Remark, RemarkOrigin, TheoremOrigin};
-pub use report::{Excluded, Found, SearchReport};
+pub use report::{Excluded, SearchReport};
 pub use second_opinion::SecondOpinion;
 
 /// Searches a case for integrals, densities and symmetries; a map for integrals and a density.
@@ -209,8 +211,9 @@ pub fn search(
         report.remarks.retain(|remark| remark.origin != RemarkOrigin::Irrational);
     }
     // Those of single values are written as well.
-    let is_of_values =
-        |own: &Found| own.kind == "integral" && own.with.iter().any(|(what, _)| *what == "value");
+    let is_of_values = |own: &Found| {
+        own.kind == FoundKind::Integral && own.with.iter().any(|own| matches!(own, Given::Value(_)))
+    };
     if absence::has_lists(case) && report.found.iter().any(is_of_values) {
         report.remarks.retain(|remark| remark.origin != RemarkOrigin::Lists);
     }
@@ -229,7 +232,7 @@ fn along_orbits(
     progress: &mut dyn FnMut(&str),
 ) -> Result<(), SearchError> {
     // Theorems on orbits hold for both signs of each root, and are about fields without moduli.
-    let known: Vec<String> = report.formulas("integral").map(str::to_string).collect();
+    let known: Vec<String> = report.formulas(FoundKind::Integral).map(str::to_string).collect();
     report.stage("relations along an orbit", effort, |report| {
         orbit::search(case, effort, grows, report, progress)
     })?;
@@ -244,8 +247,8 @@ fn along_orbits(
         momenta::rates(case, effort, report)?;
         repeated::remove(case, effort, report)
     })?;
-    let is_further = |own: &Found| own.kind == orbit::FURTHER_INTEGRAL;
-    let is_same = report.formulas("integral").eq(known.iter().map(String::as_str));
+    let is_further = |own: &Found| own.kind == FoundKind::FurtherIntegral;
+    let is_same = report.formulas(FoundKind::Integral).eq(known.iter().map(String::as_str));
     if !is_same || report.found.iter().any(is_further) {
         counts::conclude(case, effort, report)?;
     }

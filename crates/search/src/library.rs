@@ -5,7 +5,7 @@
 //! does not have, or has with another type, is not offered.
 
 use super::tensors;
-use super::terms::{is_one, one};
+use super::terms::{one, product};
 use liouville::formula::{Formula, FormulaResult, Type};
 use liouville::mechanics::{Meaning, Model, System};
 
@@ -50,15 +50,6 @@ fn potential_parameters(model: &Model) -> Vec<Formula> {
         .filter(|entry| entry.kind == Type::Scalar && !bodily.contains(&entry.name.as_str()))
         .map(|entry| entry.name.as_str());
     known(model, &names.collect::<Vec<_>>())
-}
-
-/// Product of two factors, of which one may be 1.
-fn product(a: &Formula, b: &Formula) -> FormulaResult {
-    match (is_one(a), is_one(b)) {
-        (true, _) => Ok(b.clone()),
-        (_, true) => Ok(a.clone()),
-        _ => a * b,
-    }
 }
 
 /// Building blocks offered by a system.

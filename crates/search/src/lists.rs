@@ -6,7 +6,7 @@
 use super::hypotheses::headed;
 use super::orbit::OrbitReport;
 use super::origin::RemarkOrigin;
-use super::{Effort, Excluded, Found, SearchError, SearchReport};
+use super::{Effort, Excluded, Found, Given, SearchError, SearchReport};
 use liouville::case::Case;
 use liouville::mechanics::{Draw, Model, ParameterOrigin, SamplerSpec};
 use liouville::number::rational::Rational;
@@ -176,7 +176,7 @@ pub fn by_values(
     let is_new = |(found, _): &(Found, String)| !report.found.iter().any(|own| own.says(found));
     let finds: Vec<(Found, String)> = finds.into_iter().filter(is_new).collect();
     for (mut found, values) in finds {
-        found.with.push(("value", values));
+        found.with.push(Given::Value(values));
         report.found.push(found);
     }
     note_orbits(&orbits, report);

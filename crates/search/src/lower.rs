@@ -12,9 +12,8 @@ use liouville::verdict::{ClaimReport, Verdict};
 use super::ask::{independent, judged_alone};
 use super::integrals::claimed_by;
 use super::local::Coordinates;
-use super::orbit::FURTHER_INTEGRAL;
 use super::products::degree_in;
-use super::{Effort, Found, SearchError, SearchReport};
+use super::{Effort, Found, FoundKind, SearchError, SearchReport};
 
 /// Largest number of integrals that are compared.
 const MOST_TOLD: usize = 12;
@@ -36,9 +35,9 @@ pub fn prefer(
     };
     let mut told = Vec::new();
     for (place, other) in report.found.iter().enumerate() {
-        let is_integral = other.kind == "integral" || other.kind == FURTHER_INTEGRAL;
-        let function =
-            other.function.as_ref().filter(|_| is_integral && other.verdict == Verdict::Proved);
+        let is_integral =
+            other.kind == FoundKind::Integral || other.kind == FoundKind::FurtherIntegral;
+        let function = other.function().filter(|_| is_integral && other.verdict == Verdict::Proved);
         if let Some(function) = function {
             told.push((place, function.clone(), degrees.of_formula(function)?));
         }
@@ -46,9 +45,7 @@ pub fn prefer(
     if told.len() > MOST_TOLD || told.iter().any(|(_, other, _)| other.text() == formula.text()) {
         return Ok(());
     }
-    let is_first = |place: usize| {
-        report.found[place].kind == "integral" && report.found[place].with.is_empty()
-    };
+    let is_first = |place: usize| report.found[place].is_integral();
     let mut higher: Vec<_> = told
         .iter()
         .filter(|(at, _, degree)| is_first(*at) && degree.is_none_or(|degree| degree > own))
@@ -60,7 +57,8 @@ pub fn prefer(
         let others: Vec<Formula> = others.map(|(_, other, _)| other.clone()).collect();
         if independent(case, &others, formula, effort)?.is_some() {
             let known = claimed_by(case, formula, effort, report)?;
-            report.found[*place] = Found::new("integral", formula, known, found, &case.model);
+            report.found[*place] =
+                Found::new(FoundKind::Integral, formula, known, found, &case.model);
             return Ok(());
         }
     }
@@ -73,7 +71,13 @@ pub fn prefer(
     let judged = judged_alone(case, Claim::independent(all), effort)?;
     if judged.is_some_and(|own| own.verdict == Verdict::Proved) {
         let known = claimed_by(case, formula, effort, report)?;
-        report.found.push(Found::new(FURTHER_INTEGRAL, formula, known, found, &case.model));
+        report.found.push(Found::new(
+            FoundKind::FurtherIntegral,
+            formula,
+            known,
+            found,
+            &case.model,
+        ));
     }
     Ok(())
 }

@@ -5,9 +5,8 @@ use liouville::claim::{Claim, MOST_COMPARED};
 use liouville::formula::Formula;
 use liouville::verdict::Verdict;
 
-use super::orbit::FURTHER_INTEGRAL;
 use super::products::Generators;
-use super::{Effort, SearchError, SearchReport, ask};
+use super::{Effort, FoundKind, SearchError, SearchReport, ask};
 
 /// Selects independent ones of the lowest degrees among the energy, and the integrals found, claimed and told as
 /// further ones; `None` where these are no others than are told.
@@ -16,12 +15,12 @@ pub fn lowest(
     effort: &Effort,
     report: &SearchReport,
 ) -> Result<Option<Generators>, SearchError> {
-    let further = report.found.iter().filter(|found| found.kind == FURTHER_INTEGRAL);
-    let further = further.filter_map(|found| found.function.clone());
+    let further = report.found.iter().filter(|found| found.kind == FoundKind::FurtherIntegral);
+    let further = further.filter_map(|found| found.function().cloned());
     let claimed = report.claimed.iter().map(|own| own.formula.clone());
     let mut others: Vec<Formula> = further.chain(claimed).collect();
     let mut all = Generators::energy(case, effort)?;
-    for formula in report.functions("integral") {
+    for formula in report.functions(FoundKind::Integral) {
         all.add(case, formula, effort.options.seed)?;
     }
     others.retain(|own| all.formulas().all(|other| other.text() != own.text()));

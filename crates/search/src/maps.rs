@@ -2,8 +2,8 @@
 
 use super::densities::tell_volume;
 use super::integrals::tell_if_proved;
-use super::terms::{read, recorded};
-use super::{Effort, SearchError, SearchReport};
+use super::terms::recorded;
+use super::{Effort, FoundKind, SearchError, SearchReport};
 use liouville::case::Case;
 use liouville::graph::Step;
 
@@ -12,22 +12,20 @@ pub fn kept(case: &Case, effort: &Effort, report: &mut SearchReport) -> Result<(
     let model = &case.model;
     let first = model.free_components();
     let (graph, images) = recorded(case, |jet| jet.phase.field().to_vec())?;
-    for (component, image) in images.iter().enumerate() {
+    let state = model.state_formulas()?;
+    for ((component, image), formula) in images.iter().enumerate().zip(&state) {
         match graph.step(graph.place(*image)) {
             Step::Input(input) if input == first + component => {}
             _ => continue,
         }
-        let name = model.component_name(component);
-        for formula in read([name.as_str()], &model.vocabulary) {
-            tell_if_proved(case, &formula, effort, report)?;
-        }
+        tell_if_proved(case, formula, effort, report)?;
     }
     Ok(())
 }
 
 /// Tells the density 1 of a map for which no density was found.
 pub fn volume(case: &Case, effort: &Effort, report: &mut SearchReport) -> Result<(), SearchError> {
-    let has_density = report.formulas("density").next().is_some();
+    let has_density = report.formulas(FoundKind::Density).next().is_some();
     if has_density { Ok(()) } else { tell_volume(case, effort, report) }
 }
 

@@ -10,7 +10,7 @@ use liouville::verdict::{DensitySign, Evidence, Flaw, Verdict};
 use super::ask::judged_alone;
 use super::leading::{opposite, replaced};
 use super::written;
-use super::{Effort, Found, SearchError, SearchReport};
+use super::{Effort, Found, FoundKind, SearchError, SearchReport};
 
 /// Largest number of integrals that are tried as factors.
 const MOST_INTEGRALS: usize = 6;
@@ -24,12 +24,12 @@ pub fn prefer(case: &Case, effort: &Effort, report: &mut SearchReport) -> Result
     for place in 0..report.found.len() {
         let own = &report.found[place];
         let is_density =
-            own.kind == "density" && own.with.is_empty() && own.abbreviations.is_empty();
+            own.kind == FoundKind::Density && own.with.is_empty() && own.abbreviations.is_empty();
         if !is_density || own.verdict != Verdict::Proved {
             continue;
         }
         effort.halt.check()?;
-        let Some(density) = own.function.clone() else { continue };
+        let Some(density) = own.function().cloned() else { continue };
         let better = match (own.evidence.sign, is_of_measure(&own.evidence)) {
             (Some(DensitySign::Negative), _) => {
                 judged(case, effort, &opposite(case, &density)?)?.filter(has_no_minus)
@@ -41,9 +41,9 @@ pub fn prefer(case: &Case, effort: &Effort, report: &mut SearchReport) -> Result
         };
         let Some(better) = better else { continue };
         let before = std::mem::replace(&mut report.found[place], better);
-        let after = report.found[place].formula.clone();
+        let after = report.found[place].text().to_string();
         for own in &mut report.excluded {
-            own.theorem = replaced(&own.theorem, &before.formula, &after);
+            own.theorem = replaced(&own.theorem, before.text(), &after);
         }
     }
     Ok(())
@@ -67,27 +67,31 @@ fn with_integrals(
 ) -> Result<Option<Found>, SearchError> {
     let is_short =
         |own: &&Formula| own.value_type() == Type::Scalar && own.text().chars().count() <= LONGEST;
-    let integrals: Vec<Formula> =
-        report.functions("integral").filter(is_short).take(MOST_INTEGRALS).cloned().collect();
+    let integrals: Vec<Formula> = report
+        .functions(FoundKind::Integral)
+        .filter(is_short)
+        .take(MOST_INTEGRALS)
+        .cloned()
+        .collect();
     let mut found: Option<Found> = None;
     for integral in integrals {
         for factor in factors(&integral)? {
             let product = (&density.bracketed() * &factor)?;
             let product = written::shortest(case, &product).unwrap_or(product);
             let Some(own) = judged(case, effort, &product)? else { continue };
-            let is_shorter = |other: &Found| own.formula.len() < other.formula.len();
+            let is_shorter = |other: &Found| own.text().len() < other.text().len();
             let has_one_sign = own.evidence.sign != Some(DensitySign::Changes);
             let is_better = is_of_measure(&own.evidence)
                 || has_one_sign && written::has_small_poles(case, &product);
             let is_plain = !own.evidence.has(Flaw::Jumps)
-                && own.formula.chars().count() <= 2 * density.text().chars().count() + MOST_GROWTH;
+                && own.text().chars().count() <= 2 * density.text().chars().count() + MOST_GROWTH;
             if is_plain && is_better && found.as_ref().is_none_or(is_shorter) {
                 found = Some(own);
             }
         }
     }
     let is_negative = |own: &Found| own.evidence.sign == Some(DensitySign::Negative);
-    match found.as_ref().filter(|own| is_negative(own)).and_then(|own| own.function.clone()) {
+    match found.as_ref().filter(|own| is_negative(own)).and_then(|own| own.function().cloned()) {
         Some(negative) => judged(case, effort, &opposite(case, &negative)?),
         None => Ok(found),
     }
@@ -109,5 +113,5 @@ fn factors(integral: &Formula) -> Result<[Formula; 5], FormulaError> {
 fn judged(case: &Case, effort: &Effort, density: &Formula) -> Result<Option<Found>, SearchError> {
     let judged = judged_alone(case, Claim::density(density), effort)?;
     let judged = judged.filter(|own| own.verdict == Verdict::Proved);
-    Ok(judged.map(|own| Found::new("density", density, None, own, &case.model)))
+    Ok(judged.map(|own| Found::new(FoundKind::Density, density, None, own, &case.model)))
 }

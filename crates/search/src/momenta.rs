@@ -4,11 +4,12 @@
 //! their positions, sums of coordinates that a constraint keeps. They come before integrals of degree 2,
 //! which may be functions of them and of the energy.
 
+use crate::echelon::nonzero;
 use std::collections::BTreeSet;
 
 use liouville::case::Case;
 use liouville::claim::Claim;
-use liouville::formula::{Formula, FormulaResult, Type};
+use liouville::formula::{Formula, FormulaError, FormulaResult, Type};
 use liouville::graph::Step;
 use liouville::mechanics::{Lagrangian, System, VariableRole};
 use liouville::number::UnaryFunction;
@@ -20,9 +21,9 @@ use super::ansatz::subspace::complement;
 use super::ansatz::system::{Column, LinearSystem, PrimePoint};
 use super::ask::{judged_alone, proved_energy};
 use super::integrals::tell_if_proved;
-use super::orbit::{CONSTANT_RATE, coefficients, with_few_entries};
-use super::terms::{is_one, one, read, recorded};
-use super::{Effort, Found, SearchError, SearchReport};
+use super::orbit::{coefficients, with_few_entries};
+use super::terms::{is_one, one, recorded};
+use super::{Effort, Found, FoundKind, Given, SearchError, SearchReport};
 
 /// Largest number of monomials.
 const MOST_COLUMNS: usize = 260;
@@ -52,7 +53,7 @@ pub fn integrals(
     new.sort_by_key(|vector| forms.degree(vector));
     for vector in new.into_iter().take(MOST_INTEGRALS) {
         effort.halt.check()?;
-        let support: Vec<usize> = (0..vector.len()).filter(|k| vector[*k] != 0).collect();
+        let support = nonzero(&vector);
         if support.len() > MOST_TERMS {
             continue;
         }
@@ -99,7 +100,7 @@ pub fn rates(case: &Case, effort: &Effort, report: &mut SearchReport) -> Result<
         if count == MOST_RATES {
             break;
         }
-        let support: Vec<usize> = (0..vector.len()).filter(|k| vector[*k] != 0).collect();
+        let support = nonzero(&vector);
         if support.len() > MOST_TERMS || !new.contains(&function) {
             continue;
         }
@@ -113,8 +114,8 @@ pub fn rates(case: &Case, effort: &Effort, report: &mut SearchReport) -> Result<
         }
         let judged = judged_alone(case, Claim::rate(&function, &rate), effort)?;
         let Some(judged) = judged.filter(|own| own.verdict == Verdict::Proved) else { continue };
-        let with = vec![("rate", rate.to_string())];
-        let found = Found::new(CONSTANT_RATE, &function, None, judged, &case.model);
+        let with = vec![Given::Rate(rate.clone())];
+        let found = Found::new(FoundKind::ConstantRate, &function, None, judged, &case.model);
         report.found.push(Found { with, ..found });
         count += 1;
     }
@@ -157,7 +158,7 @@ impl LinearForms {
         if !case.model.extension.is_empty() {
             return Ok(None);
         }
-        let Some((mut terms, velocities)) = variables(case, lagrangian) else { return Ok(None) };
+        let (mut terms, velocities) = variables(case, lagrangian)?;
         terms.extend(circular(case, &terms)?);
         let (plain, mut factors) = (terms.len(), terms.clone());
         factors.extend(crosses(case, lagrangian)?);
@@ -169,11 +170,11 @@ impl LinearForms {
         }
         let integrals: Vec<Formula> = proved_energy(case, effort)?
             .into_iter()
-            .chain(report.functions("integral").cloned())
+            .chain(report.functions(FoundKind::Integral).cloned())
             .take(MOST_INTEGRALS)
             .collect();
-        let of_rate = report.found.iter().filter(|own| own.kind == CONSTANT_RATE);
-        let of_rate: Vec<Formula> = of_rate.filter_map(|own| own.function.clone()).collect();
+        let of_rate = report.found.iter().filter(|own| own.kind == FoundKind::ConstantRate);
+        let of_rate: Vec<Formula> = of_rate.filter_map(|own| own.function().cloned()).collect();
         let (mut known, mut driven, mut unit) = (Vec::new(), Vec::new(), 0);
         let made = LinearSystem::record_with_symbols(case, effort, |jet, recording| {
             recording.derive(jet.along_field(), &all, &[one()]);
@@ -192,8 +193,7 @@ impl LinearForms {
         system.columns.push(Column::Given(unit));
         system.columns.extend(known.iter().map(|(_, output)| Column::Given(*output)));
         // Products are written in the order of the state.
-        let names: Vec<String> =
-            (0..case.model.dimension()).map(|k| case.model.component_name(k)).collect();
+        let names = case.model.state_names();
         let place = |own: &Formula| names.iter().position(|name| name == own.text());
         let mut order: Vec<usize> = (0..all.len()).collect();
         order.sort_by_key(|k| place(&all[*k]).unwrap_or(names.len()));
@@ -269,23 +269,21 @@ impl LinearForms {
     }
 }
 
-/// Positions and velocities of a system; `None` where some have no names.
-fn variables(case: &Case, lagrangian: &Lagrangian) -> Option<(Vec<Formula>, Vec<Formula>)> {
-    let model = &case.model;
-    let (mut positions, mut velocities, mut start) = (Vec::new(), Vec::new(), 0);
-    for (role, variable) in lagrangian.roles.iter().zip(&model.state) {
-        let own = (start..start + variable.len()).map(|k| model.component_name(k));
+/// Positions and velocities of a system.
+fn variables(
+    case: &Case,
+    lagrangian: &Lagrangian,
+) -> Result<(Vec<Formula>, Vec<Formula>), FormulaError> {
+    let (mut positions, mut velocities) = (Vec::new(), Vec::new());
+    let mut components = case.model.state_formulas()?.into_iter();
+    for (role, variable) in lagrangian.roles.iter().zip(&case.model.state) {
+        let own = components.by_ref().take(variable.len());
         match role {
             VariableRole::Velocity | VariableRole::Multiplier(_) => velocities.extend(own),
             _ => positions.extend(own),
         }
-        start += variable.len();
     }
-    let terms = |names: &[String]| {
-        let made = read(names.iter().map(String::as_str), &model.vocabulary);
-        (made.len() == names.len()).then_some(made)
-    };
-    Some((terms(&positions)?, terms(&velocities)?))
+    Ok((positions, velocities))
 }
 
 /// Sines and cosines in the field of positions.
@@ -307,13 +305,14 @@ fn circular(case: &Case, positions: &[Formula]) -> Result<Vec<Formula>, SearchEr
 
 /// Components of a × b for two vectors that the motion carries along.
 fn crosses(case: &Case, lagrangian: &Lagrangian) -> Result<Vec<Formula>, SearchError> {
-    let roles = lagrangian.roles.iter().zip(&case.model.state);
+    let roles = lagrangian.roles.iter().zip(case.model.state_variables());
     let carried = roles.filter(|(role, variable)| {
-        matches!(role, VariableRole::Carried(_)) && variable.kind == Type::VECTOR
+        matches!(role, VariableRole::Carried(_)) && variable.value_type() == Type::VECTOR
     });
-    let names: Vec<&str> = carried.map(|(_, variable)| variable.name.as_str()).collect();
-    let [a, b] = names[..] else { return Ok(Vec::new()) };
-    let Ok(product) = case.formula(&format!("({a} × {b})")) else { return Ok(Vec::new()) };
+    let [a, b] = &carried.map(|(_, own)| own).collect::<Vec<_>>()[..] else {
+        return Ok(Vec::new());
+    };
+    let product = (a.cross(b)?).bracketed();
     Ok((1..=3).map(|k| product.component(&[k])).collect::<Result<_, _>>()?)
 }
 

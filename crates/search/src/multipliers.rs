@@ -18,7 +18,7 @@ use super::jets::{DimensionCount, MotionAtPoint, VelocityPolynomials};
 use super::local::Local;
 use super::origin::TheoremOrigin;
 use super::terms::{multiplied, numeric_exponent};
-use super::{Effort, Excluded, Found, SearchError, SearchReport};
+use super::{Effort, Excluded, Found, FoundKind, SearchError, SearchReport};
 use liouville::case::Case;
 use liouville::claim::Claim;
 use liouville::number::rational::Rational;
@@ -137,7 +137,7 @@ fn find(
         let formula = multiplied(&[(polynomial, power.clone())])?;
         let judged = judged_alone(case, Claim::density(&formula), effort)?;
         if let Some(found) = judged.filter(holds) {
-            report.found.push(Found::new("density", &formula, None, found, &case.model));
+            report.found.push(Found::new(FoundKind::Density, &formula, None, found, &case.model));
             return Ok(());
         }
     }

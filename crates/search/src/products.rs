@@ -7,9 +7,8 @@ use super::SearchError;
 use super::echelon::Echelon;
 use super::local::Coordinates;
 use super::local::functions::{adjoined, roles};
-use super::orbit::FURTHER_INTEGRAL;
 use super::symbols::symbolised;
-use super::{Effort, SearchReport, ask};
+use super::{Effort, FoundKind, SearchReport, ask};
 use liouville::case::Case;
 use liouville::formula::Formula;
 use liouville::graph::{Evaluator, Expr, Step, Tape};
@@ -68,8 +67,8 @@ impl Generators {
         report: &SearchReport,
     ) -> Result<Option<Self>, SearchError> {
         let mut with = self.clone();
-        let own = report.found.iter().filter(|found| found.kind == FURTHER_INTEGRAL);
-        for formula in own.filter_map(|found| found.function.as_ref()) {
+        let own = report.found.iter().filter(|found| found.kind == FoundKind::FurtherIntegral);
+        for formula in own.filter_map(|found| found.function()) {
             if self.formulas().all(|known| known.text() != formula.text()) {
                 with.add(case, formula, effort.options.seed)?;
             }
@@ -142,7 +141,7 @@ pub fn told(
     effort: &Effort,
     report: &SearchReport,
 ) -> Result<Vec<Formula>, SearchError> {
-    let mut told: Vec<Formula> = report.functions("integral").cloned().collect();
+    let mut told: Vec<Formula> = report.functions(FoundKind::Integral).cloned().collect();
     for ask::Claimed { formula, .. } in &report.claimed {
         if ask::independent(case, &told, formula, effort)?.is_some() {
             told.push(formula.clone());

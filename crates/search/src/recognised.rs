@@ -6,12 +6,12 @@
 use super::ansatz::coefficients::{PrimitiveVector, Ratio};
 use super::ansatz::system::{Column, LinearSystem, PrimePoint};
 use super::ask::{judged_alone, proved_energy};
-use super::echelon::Echelon;
+use super::echelon::{Echelon, nonzero};
 use super::integrals::claimed_by;
 use super::local::Coordinates;
 use super::lower::Degrees;
 use super::products::degree_in;
-use super::{Effort, Found, SearchError, SearchReport};
+use super::{Effort, Found, FoundKind, SearchError, SearchReport};
 use liouville::case::Case;
 use liouville::claim::Claim;
 use liouville::formula::{Formula, FormulaError, Type};
@@ -30,10 +30,10 @@ const MOST_DEGREE: u32 = 4;
 /// Rewrites the integrals of a report where that makes them shorter.
 pub fn rewrite(case: &Case, effort: &Effort, report: &mut SearchReport) -> Result<(), SearchError> {
     let is_long = |found: &Found| {
-        found.kind == "integral"
+        found.kind == FoundKind::Integral
             && found.with.is_empty()
             && found.verdict == Verdict::Proved
-            && found.formula.chars().count() > SHORT
+            && found.text().chars().count() > SHORT
     };
     let places: Vec<usize> =
         (0..report.found.len()).filter(|k| is_long(&report.found[*k])).collect();
@@ -46,7 +46,7 @@ pub fn rewrite(case: &Case, effort: &Effort, report: &mut SearchReport) -> Resul
     }
     for place in places {
         effort.halt.check()?;
-        let Some(function) = report.found[place].function.clone() else { continue };
+        let Some(function) = report.found[place].function().cloned() else { continue };
         let shorter = match shorter(case, effort, &products, &function) {
             Err(SearchError::NoChart) => return Ok(()),
             other => other?,
@@ -54,7 +54,7 @@ pub fn rewrite(case: &Case, effort: &Effort, report: &mut SearchReport) -> Resul
         if let Some(found) = shorter {
             let known = report.found[place].known.take();
             for own in &mut report.excluded {
-                own.theorem = own.theorem.replace(function.text(), &found.formula);
+                own.theorem = own.theorem.replace(function.text(), found.text());
             }
             report.found[place] = Found { known, ..found };
         }
@@ -103,7 +103,7 @@ impl Sums {
         let Some(vectors) = rates.null_space(&at, &columns)? else { return Ok(None) };
         let mut formulas = Vec::new();
         for vector in vectors {
-            let own: Vec<usize> = (0..vector.len()).filter(|k| vector[*k] != 0).collect();
+            let own = nonzero(&vector);
             if length(own.iter().map(|k| &terms[kept[*k]])) >= longest {
                 continue;
             }
@@ -161,20 +161,18 @@ fn exchange(
     products: &[(Formula, u32)],
     report: &mut SearchReport,
 ) -> Result<(), SearchError> {
-    let is_told = |found: &Found| {
-        found.kind == "integral" && found.with.is_empty() && found.verdict == Verdict::Proved
-    };
+    let is_told = |found: &Found| found.is_integral() && found.verdict == Verdict::Proved;
     let mut places = Vec::new();
     let mut others: Vec<Formula> = Vec::new();
     for (place, found) in report.found.iter().enumerate().filter(|(_, found)| is_told(found)) {
-        if let Some(function) = &found.function {
+        if let Some(function) = found.function() {
             places.push(place);
             others.push(function.clone());
         }
     }
     let count = others.len();
     others.extend(proved_energy(case, effort)?);
-    let told = |report: &SearchReport, place: usize| report.found[place].formula.chars().count();
+    let told = |report: &SearchReport, place: usize| report.found[place].text().chars().count();
     let Some(longest) = places.iter().map(|place| told(report, *place)).max() else {
         return Ok(());
     };
@@ -201,8 +199,8 @@ fn exchange(
         let mut order: Vec<usize> = (0..count)
             .filter(|k| !is_new[*k] && told(report, places[*k]) > size.max(SHORT))
             .filter(|k| {
-                let text = &report.found[places[*k]].formula;
-                report.excluded.iter().all(|own| !own.theorem.contains(text.as_str()))
+                let text = report.found[places[*k]].text();
+                report.excluded.iter().all(|own| !own.theorem.contains(text))
             })
             .collect();
         order.sort_by_key(|k| std::cmp::Reverse(told(report, places[*k])));
@@ -226,7 +224,7 @@ fn exchange(
             continue;
         };
         let known = claimed_by(case, formula, effort, report)?;
-        let found = Found::new("integral", formula, known, verdict, &case.model);
+        let found = Found::new(FoundKind::Integral, formula, known, verdict, &case.model);
         report.found[places[k]] = found;
         (own[k], is_new[k]) = (gradient, true);
     }
@@ -238,9 +236,9 @@ fn exchange(
 fn inner_products(case: &Case, effort: &Effort) -> Result<Vec<(Formula, u32)>, SearchError> {
     let vocabulary = &case.model.vocabulary;
     // Names with their lengths, and whether they are constant.
-    let mut vectors: Vec<(String, usize, bool)> = Vec::new();
-    let mut matrices: Vec<(String, usize)> = Vec::new();
-    for (_, entry) in vocabulary.iter() {
+    let mut vectors: Vec<(Formula, usize, bool)> = Vec::new();
+    let mut matrices: Vec<(Formula, usize)> = Vec::new();
+    for (symbol, entry) in vocabulary.iter() {
         let is_named = matches!(
             entry.meaning,
             Meaning::State(_) | Meaning::Parameter(_) | Meaning::Abbreviation(_)
@@ -249,38 +247,38 @@ fn inner_products(case: &Case, effort: &Effort) -> Result<Vec<(Formula, u32)>, S
             continue;
         }
         let is_constant = entry.reach == Dependence::Parameters;
+        let own = Formula::symbol(&entry.name, symbol, entry.kind);
         match entry.kind {
             Type::Vector(length) if length > 1 => {
-                vectors.push((entry.name.clone(), length, is_constant));
+                vectors.push((own, length, is_constant));
             }
             Type::Matrix(rows, columns) if rows == columns && is_constant => {
-                matrices.push((entry.name.clone(), rows));
+                matrices.push((own, rows));
             }
             _ => {}
         }
     }
-    let mut factors: Vec<(String, usize, bool)> = Vec::new();
-    for (name, length, is_constant) in &vectors {
-        factors.push((name.clone(), *length, *is_constant));
+    let mut factors: Vec<(Formula, usize, bool)> = Vec::new();
+    for (vector, length, is_constant) in &vectors {
+        factors.push((vector.clone(), *length, *is_constant));
         for (matrix, _) in matrices.iter().filter(|(_, rows)| rows == length && !is_constant) {
-            for form in [format!("{matrix}*{name}"), format!("{matrix}⁻¹*{name}")] {
-                factors.push((form, *length, false));
+            for form in [matrix * vector, matrix.raised(-1)? * vector] {
+                factors.push((form?, *length, false));
             }
         }
     }
-    let mut texts = Vec::new();
+    let mut products = Vec::new();
     for (k, (first, length, is_constant)) in factors.iter().enumerate() {
         for (second, other, is_other_constant) in &factors[k..] {
             if length == other && !(*is_constant && *is_other_constant) {
-                texts.push(format!("({first},{second})"));
+                products.push(first.dot(second)?);
             }
         }
     }
-    texts.sort_by_key(|text| text.chars().count());
+    products.sort_by_key(|own: &Formula| own.text().chars().count());
     let everything = Coordinates::all_moving(case);
     let mut found = Vec::new();
-    for text in texts.into_iter().take(MOST_PRODUCTS) {
-        let Ok(formula) = case.formula(&text) else { continue };
+    for formula in products.into_iter().take(MOST_PRODUCTS) {
         if let Some(degree) = degree_in(case, &formula, &everything, effort.options.seed)? {
             found.push((formula, degree));
         }
@@ -328,7 +326,7 @@ fn shorter(
     let Some(vector) = vectors.last().filter(|own| own.last() != Some(&0)) else {
         return Ok(None);
     };
-    let support: Vec<usize> = (0..vector.len()).filter(|k| vector[*k] != 0).collect();
+    let support = nonzero(vector);
     let used = support.iter().filter(|k| **k < terms.len()).map(|k| &terms[*k]);
     if length(used) >= function.text().chars().count() {
         return Ok(None);
@@ -353,5 +351,5 @@ fn shorter(
         return Ok(None);
     }
     let proved = is_proved(Claim::integral(&sum))?;
-    Ok(proved.map(|report| Found::new("integral", &sum, None, report, &case.model)))
+    Ok(proved.map(|report| Found::new(FoundKind::Integral, &sum, None, report, &case.model)))
 }

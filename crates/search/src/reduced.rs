@@ -6,6 +6,7 @@
 //! values of a solution. An expression in which a column has got a pivot since is brought up to date
 //! when it is read.
 
+use crate::echelon::bytes;
 use liouville::number::prime::Modulus;
 
 /// The columns that rows determine by other columns.
@@ -135,7 +136,7 @@ impl ReducedEchelon {
 
     /// Number of bytes that the expressions take.
     pub fn bytes(&self) -> u64 {
-        (self.entries * (size_of::<u64>() + size_of::<u32>())) as u64
+        bytes(self.entries)
     }
 
     /// Number of columns.

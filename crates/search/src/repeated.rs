@@ -5,16 +5,20 @@ use liouville::claim::Claim;
 use liouville::verdict::Verdict;
 
 use super::ask::judged_alone;
-use super::orbit::{CONSTANT_RATE, DARBOUX, FURTHER_INTEGRAL};
-use super::{Effort, Found, SearchError, SearchReport};
+use super::{Effort, Found, FoundKind, SearchError, SearchReport};
 
 /// Removes functions of constant rate, further integrals, and Darboux polynomials with one cofactor, that are
 /// functions of others of their kind; short ones are kept.
 pub fn remove(case: &Case, effort: &Effort, report: &mut SearchReport) -> Result<(), SearchError> {
-    let has_kind = |own: &Found| matches!(own.kind, FURTHER_INTEGRAL | CONSTANT_RATE | DARBOUX);
+    let has_kind = |own: &Found| {
+        matches!(
+            own.kind,
+            FoundKind::FurtherIntegral | FoundKind::ConstantRate | FoundKind::DarbouxPolynomial
+        )
+    };
     let mut open: Vec<usize> =
         (0..report.found.len()).filter(|place| has_kind(&report.found[*place])).collect();
-    open.sort_by_key(|place| report.found[*place].formula.chars().count());
+    open.sort_by_key(|place| report.found[*place].text().chars().count());
     let (mut kept, mut repeated): (Vec<&Found>, Vec<usize>) = (Vec::new(), Vec::new());
     for place in open {
         let own = &report.found[place];
@@ -42,8 +46,8 @@ pub fn remove(case: &Case, effort: &Effort, report: &mut SearchReport) -> Result
 fn are_alike(own: &Found, other: &Found) -> bool {
     own.kind == other.kind
         && match own.kind {
-            CONSTANT_RATE => own.with.len() == other.with.len(),
-            DARBOUX => own.with == other.with,
+            FoundKind::ConstantRate => own.with.len() == other.with.len(),
+            FoundKind::DarbouxPolynomial => own.with == other.with,
             _ => true,
         }
 }
@@ -55,7 +59,7 @@ fn are_dependent(
     other: &Found,
     effort: &Effort,
 ) -> Result<bool, SearchError> {
-    let Some((a, b)) = own.function.as_ref().zip(other.function.as_ref()) else { return Ok(false) };
+    let Some((a, b)) = own.function().zip(other.function()) else { return Ok(false) };
     let judged = judged_alone(case, Claim::independent(vec![a.clone(), b.clone()]), effort)?;
     Ok(judged.is_some_and(|judged| judged.verdict == Verdict::Refuted))
 }

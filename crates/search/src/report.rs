@@ -9,119 +9,13 @@ use super::multipliers::MultiplierReport;
 use super::orbit::OrbitReport;
 use super::origin::{Remark, RemarkOrigin, TheoremOrigin};
 use super::second_opinion::SecondOpinion;
-use super::{Effort, SearchError, library};
+use super::{Effort, Found, FoundKind, SearchError};
 use liouville::case::Case;
 use liouville::formula::Formula;
-use liouville::mechanics::{Meaning, Model};
-use liouville::verdict::{ClaimReport, Evidence, Verdict};
 
 /// End of a theorem of absence where a function of the case is arbitrary.
 const GENERIC_FUNCTION: &str = " The arbitrary function of the case is a generic one here: for special \
     ones there may be more.";
-
-/// An invariant that was found.
-#[derive(Clone, Debug, Serialize)]
-pub struct Found {
-    /// Kind of the invariant: `integral`, `further-integral`, `vector-integral`, `density`,
-    /// `symmetry-field` or `bracket`.
-    pub kind: &'static str,
-    /// Formula in the names of the case.
-    pub formula: String,
-    /// Abbreviations used in the formula that the case does not define, in order.
-    #[serde(rename = "let", skip_serializing_if = "Vec::is_empty")]
-    pub abbreviations: Vec<(&'static str, &'static str)>,
-    /// Additional data under which it holds: a `potential`, `force`, `gyrostat` or `gyroscopic term`
-    /// that the case does not have, the `value` of a parameter or a `condition` on several; for a
-    /// vector each `component` that was found; for a bracket its `Hamiltonian` and each known `Casimir`;
-    /// for a further integral how it comes from others.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub with: Vec<(&'static str, String)>,
-    /// Whether it is a function of the energy and the level. Such finds are not reported, so this
-    /// is always `false`.
-    pub trivial: bool,
-    /// Names of the claims of the case that imply it.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub known: Option<String>,
-    /// Verdict on the claim.
-    pub verdict: Verdict,
-    /// Evidence for the verdict.
-    pub evidence: Evidence,
-    /// The invariant itself, where it is one function.
-    #[serde(skip)]
-    pub function: Option<Formula>,
-    /// Components of a symmetry field by variable.
-    #[serde(skip)]
-    pub(crate) fields: Vec<(String, Formula)>,
-}
-
-impl Found {
-    /// Makes a find from a function and its evidence.
-    pub(crate) fn new(
-        kind: &'static str,
-        function: &Formula,
-        known: Option<String>,
-        report: ClaimReport,
-        model: &Model,
-    ) -> Self {
-        let text = function.to_string();
-        let mut found = Self::of_several(kind, text, &[function], report, model);
-        found.known = known;
-        found.function = Some(function.clone());
-        found
-    }
-
-    /// Whether another find says the same: the same formula or, for brackets, one with the same
-    /// Hamiltonian.
-    pub(crate) fn says(&self, other: &Self) -> bool {
-        let hamiltonian = |own: &Self| own.with.first().cloned();
-        self.kind == other.kind
-            && match self.kind {
-                "bracket" => hamiltonian(self) == hamiltonian(other),
-                _ => self.formula == other.formula && self.with == other.with,
-            }
-    }
-
-    /// Makes a find that consists of several formulas, with its text.
-    pub(crate) fn of_several(
-        kind: &'static str,
-        text: String,
-        formulas: &[&Formula],
-        report: ClaimReport,
-        model: &Model,
-    ) -> Self {
-        let mut needed = formulas.to_vec();
-        let mut abbreviations = library::abbreviations(model);
-        abbreviations.reverse();
-        abbreviations.retain(|(name, _)| {
-            let used = needed.iter().any(|formula| formula.uses(name));
-            if let (true, Some(own)) = (used, abbreviation(model, name)) {
-                needed.push(own);
-            }
-            used
-        });
-        abbreviations.reverse();
-        Self {
-            kind,
-            formula: text,
-            function: None,
-            fields: Vec::new(),
-            abbreviations,
-            with: Vec::new(),
-            trivial: false,
-            known: None,
-            verdict: report.verdict,
-            evidence: report.evidence,
-        }
-    }
-}
-
-/// Formula of an abbreviation, by its name.
-fn abbreviation<'m>(model: &'m Model, name: &str) -> Option<&'m Formula> {
-    match model.vocabulary.find(name)?.meaning {
-        Meaning::Abbreviation(index) => model.abbreviations.get(index),
-        _ => None,
-    }
-}
 
 /// A theorem of absence: a family of candidates, and a bound on its invariants.
 #[derive(Clone, Debug, Serialize)]
@@ -180,7 +74,7 @@ pub struct SearchReport {
     /// independent ones as there can be.
     #[serde(skip)]
     pub is_complete: bool,
-    /// Parts that could not be carried out as no terms have values modulo a prime.
+    /// Parts that could not be carried out as no terms have values modulo a prime, or no system was built.
     #[serde(skip)]
     pub(crate) without_points: Vec<String>,
     /// Polynomial integrals met on the way that are functions of others, and no polynomials in them.
@@ -193,17 +87,22 @@ pub struct SearchReport {
 
 impl SearchReport {
     /// Returns the formulas of one kind found for the case without additional data.
-    pub fn formulas(&self, kind: &str) -> impl Iterator<Item = &str> {
-        self.of_case(kind).map(|found| found.formula.as_str())
+    pub fn formulas(&self, kind: FoundKind) -> impl Iterator<Item = &str> {
+        self.of_case(kind).map(Found::text)
     }
 
     /// Returns the functions of one kind found for the case without additional data.
-    pub fn functions(&self, kind: &str) -> impl Iterator<Item = &Formula> {
-        self.of_case(kind).filter_map(|found| found.function.as_ref())
+    pub fn functions(&self, kind: FoundKind) -> impl Iterator<Item = &Formula> {
+        self.of_case(kind).filter_map(Found::function)
     }
 
-    pub(crate) fn of_case(&self, kind: &str) -> impl Iterator<Item = &Found> {
+    pub(crate) fn of_case(&self, kind: FoundKind) -> impl Iterator<Item = &Found> {
         self.found.iter().filter(move |found| found.kind == kind && found.with.is_empty())
+    }
+
+    /// Whether it has a find of a kind with this formula.
+    pub(crate) fn has(&self, kind: FoundKind, text: &str) -> bool {
+        self.found.iter().any(|own| own.kind == kind && own.text() == text)
     }
 
     pub(crate) fn remark(&mut self, remark: impl Into<Remark>) {
@@ -256,7 +155,7 @@ impl SearchReport {
                 self.unreached.push(name.to_string());
                 Ok(())
             }
-            Err(error @ SearchError::NoPoints) => {
+            Err(error @ (SearchError::NoPoints | SearchError::Unbuilt(_))) => {
                 self.without_points.push(format!("not searched: {name}: {error}"));
                 Ok(())
             }

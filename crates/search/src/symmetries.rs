@@ -9,10 +9,10 @@ use num_traits::Zero;
 use super::ask::{holds, judged_alone};
 use super::linear::{FunctionRelations, SampledFunctions};
 use super::terms::{combined, integers, one, recorded, whole};
-use super::{Effort, Found, SearchError, SearchReport};
+use super::{Effort, Found, FoundKind, SearchError, SearchReport};
 use liouville::case::Case;
 use liouville::claim::{Claim, LevelSubset};
-use liouville::formula::{Formula, FormulaError, Type};
+use liouville::formula::{Formula, FormulaError};
 use liouville::graph::{Expr, Graph};
 use liouville::mechanics::elimination::dot;
 use liouville::number::rational::Rational;
@@ -75,7 +75,7 @@ pub fn symmetries(
         }
         if let Some(found) = judged_alone(case, claim, effort)?.filter(holds) {
             let parts: Vec<&Formula> = entries.iter().map(|(_, value)| value).collect();
-            let found = Found::of_several("symmetry-field", shown, &parts, found, model);
+            let found = Found::of_several(FoundKind::SymmetryField, shown, &parts, found, model);
             report.found.push(Found { fields: entries, ..found });
         }
     }
@@ -142,7 +142,7 @@ fn spelled(
     fields: &[LinearField],
     multiples: &[BigInt],
 ) -> Result<(String, Components, Claim), SearchError> {
-    let names = component_names(case)?;
+    let names = case.model.state_formulas()?;
     let component = |j: usize| -> Result<Option<Formula>, FormulaError> {
         let own = fields.iter().zip(multiples).filter(|(field, _)| field.1 == j);
         let (terms, values): (Vec<Formula>, Vec<BigInt>) = own
@@ -178,23 +178,4 @@ fn spelled(
         claim = claim.with("weight", whole(weight));
     }
     Ok((shown, entries, claim))
-}
-
-/// The state's components: `ω1`, `x`.
-fn component_names(case: &Case) -> Result<Vec<Formula>, FormulaError> {
-    let mut names = Vec::new();
-    for variable in &case.model.state {
-        let own = case.formula(&variable.name)?;
-        names.extend(match variable.kind {
-            Type::Scalar => vec![own],
-            Type::Vector(length) => {
-                let scope = &case.model.vocabulary;
-                (1..=length).map(|index| own.element(index, scope)).collect::<Result<_, _>>()?
-            }
-            kind => {
-                kind.places().iter().map(|place| own.component(place)).collect::<Result<_, _>>()?
-            }
-        });
-    }
-    Ok(names)
 }

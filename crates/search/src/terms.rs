@@ -41,6 +41,15 @@ pub fn is_one(formula: &Formula) -> bool {
     formula.constant().is_some_and(|value| value == Rational::from(1))
 }
 
+/// Product of two factors, of which one may be 1.
+pub fn product(a: &Formula, b: &Formula) -> FormulaResult {
+    match (is_one(a), is_one(b)) {
+        (true, _) => Ok(b.clone()),
+        (_, true) => Ok(a.clone()),
+        _ => a * b,
+    }
+}
+
 /// Whole number as a formula.
 pub fn whole(number: &BigInt) -> Formula {
     Formula::number(Rational::from_parts(number.clone(), BigInt::from(1)))

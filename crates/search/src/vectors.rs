@@ -7,7 +7,8 @@ use super::ansatz::coefficients::{PrimitiveVector, Ratio};
 use super::ansatz::positions;
 use super::ansatz::system::{Column, LinearSystem};
 use super::ask::judged_alone;
-use super::{Effort, Found, SearchError, SearchReport};
+use super::{Effort, Found, FoundKind, Given, SearchError, SearchReport};
+use crate::echelon::nonzero;
 use liouville::case::Case;
 use liouville::claim::Claim;
 use liouville::formula::{Formula, Type};
@@ -22,18 +23,20 @@ const COMPONENTS: usize = 2;
 /// Adds the vectors to a report of which at least two components were found.
 pub fn gather(case: &Case, effort: &Effort, report: &mut SearchReport) -> Result<(), SearchError> {
     let vectors = vectors(case, effort)?;
-    let is_scalar = |found: &&Found| {
-        found.kind == "integral" && found.with.is_empty() && found.verdict == Verdict::Proved
-    };
-    let own: Vec<Formula> =
-        report.found.iter().filter(is_scalar).filter_map(|found| found.function.clone()).collect();
+    let is_scalar = |found: &&Found| found.is_integral() && found.verdict == Verdict::Proved;
+    let own: Vec<Formula> = report
+        .found
+        .iter()
+        .filter(is_scalar)
+        .filter_map(|found| found.function().cloned())
+        .collect();
     if vectors.is_empty() || own.len() < COMPONENTS {
         return Ok(());
     }
     let mut terms = vectors.clone();
     for (k, first) in vectors.iter().enumerate() {
         for second in &vectors[k + 1..] {
-            terms.push(case.formula(&format!("{first} × {second}"))?);
+            terms.push(first.cross(second)?);
         }
     }
     let mut found: Vec<(Formula, Vec<Formula>)> = Vec::new();
@@ -58,8 +61,9 @@ pub fn gather(case: &Case, effort: &Effort, report: &mut SearchReport) -> Result
             continue;
         };
         let text = vector.to_string();
-        let mut one = Found::of_several("vector-integral", text, &[&vector], verdict, &case.model);
-        one.with = components.iter().map(|own| ("component", own.to_string())).collect();
+        let mut one =
+            Found::of_several(FoundKind::VectorIntegral, text, &[&vector], verdict, &case.model);
+        one.with = components.into_iter().map(Given::Component).collect();
         report.found.push(one);
     }
     Ok(())
@@ -68,25 +72,25 @@ pub fn gather(case: &Case, effort: &Effort, report: &mut SearchReport) -> Result
 /// Vectors of the state in space: its variables, or three scalar positions and the three others.
 fn vectors(case: &Case, effort: &Effort) -> Result<Vec<Formula>, SearchError> {
     let model = &case.model;
-    let own = model.state.iter().filter(|variable| variable.kind == Type::VECTOR);
-    let mut texts: Vec<String> = own.map(|variable| variable.name.clone()).collect();
+    let mut own = model.state_variables();
+    own.retain(|variable| variable.value_type() == Type::VECTOR);
     let is_own = model.system.is_field() || matches!(model.system, System::Lagrangian(_));
-    let has_six = texts.is_empty() && is_own && model.dimension() == 6 && model.level.is_empty();
+    let has_six = own.is_empty() && is_own && model.dimension() == 6 && model.level.is_empty();
     if has_six
         && let Ok(places) = positions(case, effort)?
         && places.len() == 3
     {
-        let list = |is_position: bool| {
+        let state = model.state_formulas()?;
+        for is_position in [true, false] {
             let kept = (0..6).filter(|place| places.contains(place) == is_position);
-            let names: Vec<String> = kept.map(|place| model.component_name(place)).collect();
-            format!("[{}]", names.join(", "))
-        };
-        texts = vec![list(true), list(false)];
+            let kept: Vec<&Formula> = kept.map(|place| &state[place]).collect();
+            own.push(Formula::vector(&kept)?);
+        }
     }
-    if texts.len() > MOST_VECTORS {
-        return Ok(Vec::new());
+    if own.len() > MOST_VECTORS {
+        own.clear();
     }
-    Ok(texts.iter().map(|text| case.formula(text)).collect::<Result<_, _>>()?)
+    Ok(own)
 }
 
 /// The vector of which an integral is a component, up to a factor.
@@ -111,7 +115,7 @@ fn vector(
         let columns: Vec<usize> = (0..terms.len()).map(|k| 3 * k + axis).chain([count]).collect();
         let Some(vectors) = system.null_space(&at, &columns)? else { return Ok(None) };
         let Some(own) = vectors.last().filter(|own| own.last() != Some(&0)) else { continue };
-        let kept: Vec<usize> = (0..own.len()).filter(|k| own[*k] != 0).collect();
+        let kept = nonzero(own);
         let support: Vec<usize> = kept.iter().map(|k| columns[*k]).collect();
         let Some(coefficients) = PrimitiveVector::of(&system, &support)? else { continue };
         let places: Vec<usize> = (0..kept.len() - 1).collect();

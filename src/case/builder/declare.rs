@@ -103,7 +103,7 @@ impl ModelBuilder {
         left: &FormulaSource,
         right: &FormulaSource,
     ) -> Result<(), ClaimError> {
-        if self.build != Build::Field {
+        if matches!(self.build, Build::Rolling { .. }) {
             let message = "the level set of this system is fixed";
             return Err(ClaimError::new("level", message, "leave the equation out"));
         }

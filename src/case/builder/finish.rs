@@ -2,7 +2,7 @@
 
 use super::super::value::FormulaSource;
 use super::super::{Case, CaseRemark, ClaimError, build, implied, repeated, shadows};
-use super::{BodyPart, Build, ModelBuilder};
+use super::{BodyPart, Build, ModelBuilder, chart};
 use crate::formula::{Formula, Scope, Symbol, Type, names_in};
 use crate::mechanics::{
     Chart, Dependence, Features, LevelEquation, LevelFunction, Meaning, Model, Potential, Quantity,
@@ -19,18 +19,23 @@ impl ModelBuilder {
             return Err(error);
         }
         let system = match self.build {
-            Build::Field => None,
+            Build::Field | Build::Map => None,
             Build::Rolling { spins, curved } => Some(self.body(spins, curved)?),
         };
         let rates = self.read_rates()?;
+        let given_chart = self.chart.take();
         let (system, extension, chart) = match system {
             None => {
                 if self.state.variables.is_empty() {
-                    let message = "the field has no state variables";
+                    let message = "the system has no state variables";
                     return Err(ClaimError::new(&self.title, message, "declare some by `state`"));
                 }
                 let chart = if self.level.is_empty() { Chart::Free } else { Chart::Equations };
-                (System::Field(rates), Vec::new(), chart)
+                let system = match self.build {
+                    Build::Map => System::Map(rates),
+                    _ => System::Field(rates),
+                };
+                (system, Vec::new(), chart)
             }
             Some(system) => {
                 let chart = system.chart();
@@ -60,6 +65,7 @@ impl ModelBuilder {
             source: String::new(),
             system: match self.build {
                 Build::Field => "field",
+                Build::Map => "map",
                 Build::Rolling { spins: false, curved: false } => "rubber-plane",
                 Build::Rolling { spins: false, curved: true } => "rubber-sphere",
                 Build::Rolling { spins: true, curved: false } => "rolling-plane",
@@ -81,6 +87,12 @@ impl ModelBuilder {
             without_time: None,
         };
         build::extend_support(&mut case.model);
+        if let System::Map(images) = &case.model.system
+            && let Some(image) = images.iter().find(|own| case.model.has_antiderivative(own))
+        {
+            let message = "an image cannot contain ∫, whose constant is open";
+            return Err(ClaimError::new(image.text(), message, "write the antiderivative out"));
+        }
         let is_open = |equation: &&LevelEquation| match &equation.function {
             LevelFunction::Formula(function) => case.model.has_antiderivative(function),
             _ => false,
@@ -98,6 +110,9 @@ impl ModelBuilder {
                     ClaimError::new(&text, message, "correct one of them")
                 })?);
                 case.remarks = remarks.into_iter().map(CaseRemark::from).collect();
+                if let Some(own) = given_chart {
+                    case.chart = chart::chart(&case.model, own)?;
+                }
                 Ok(case)
             }
             Some(text) => {
@@ -110,9 +125,15 @@ impl ModelBuilder {
     fn read_rates(&self) -> Result<Vec<Formula>, ClaimError> {
         let variables = self.state.variables.iter().zip(&self.rates).skip(self.own);
         let read = |(variable, rate): (&Variable, &Option<FormulaSource>)| {
-            let what = format!("{}'", variable.name);
+            let what = match self.build {
+                Build::Map => variable.name.clone(),
+                _ => format!("{}'", variable.name),
+            };
             match rate {
                 Some(rate) => self.read(&what, rate, Some(variable.kind), Dependence::Phase),
+                None if self.build == Build::Map => {
+                    Err(ClaimError::new(&what, "the image is missing", "give it by `rate`"))
+                }
                 None => Err(ClaimError::new(&what, "the rate is missing", "give it by `rate`")),
             }
         };

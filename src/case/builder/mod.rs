@@ -1,5 +1,6 @@
-//! Systems as values: a field of one's own, or a body that rolls without slipping and spinning.
+//! Systems as values: a field or a map of one's own, or a body that rolls without slipping and spinning.
 
+mod chart;
 mod declare;
 mod finish;
 
@@ -13,6 +14,7 @@ use crate::mechanics::{Dependence, LevelEquation, Model, Parameter, Vocabulary};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Build {
     Field,
+    Map,
     Rolling { spins: bool, curved: bool },
 }
 
@@ -62,6 +64,7 @@ pub struct ModelBuilder {
     abbreviations: Vec<Formula>,
     level: Vec<LevelEquation>,
     parts: Vec<(BodyPart, FormulaSource)>,
+    chart: Option<chart::ChartSource>,
     error: Option<ClaimError>,
 }
 
@@ -69,6 +72,20 @@ impl Model {
     /// Begins a vector field of one's own.
     pub fn field() -> ModelBuilder {
         ModelBuilder::new(Build::Field, "field")
+    }
+
+    /// Begins a map of one's own, in which the formula of a variable is its image.
+    ///
+    /// ```
+    /// use liouville::prelude::*;
+    ///
+    /// let map = Model::map().parameter("a", "1..2").state("x", "1..2", "y/a").state("y", "1..2", "a*x").build()?;
+    /// let report = map.judge(&[Claim::integral(map.formula("x*y")?)], &Options::default())?;
+    /// assert_eq!(report.claims[0].verdict, Verdict::Proved);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn map() -> ModelBuilder {
+        ModelBuilder::new(Build::Map, "map")
     }
 
     /// Begins a body that rolls on a plane without slipping and spinning, in the variables ω and γ.
@@ -107,6 +124,7 @@ impl ModelBuilder {
             abbreviations: Vec::new(),
             level: Vec::new(),
             parts: Vec::new(),
+            chart: None,
             error: None,
         };
         if let Build::Rolling { .. } = build {
@@ -134,7 +152,7 @@ impl ModelBuilder {
         self.attempt(name, |builder, name| builder.add_parameter(name, &value))
     }
 
-    /// Declares a state variable with the range of its values and its rate.
+    /// Declares a state variable with the range of its values and its rate, or its image under a map.
     #[must_use]
     pub fn state(
         self,
@@ -152,7 +170,7 @@ impl ModelBuilder {
         self.attempt(name, |builder, name| builder.add_variable(name, &range))
     }
 
-    /// Sets the rate of a state variable.
+    /// Sets the rate of a state variable, or its image under a map.
     #[must_use]
     pub fn rate(self, name: &str, rate: impl Into<FormulaSource>) -> Self {
         let rate = rate.into();

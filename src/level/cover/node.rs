@@ -292,7 +292,7 @@ impl Node {
     /// Divides by the sign of the first modulus in an equation; `None` if there is none.
     pub fn by_sign(&self, index: usize) -> Result<Option<[Self; 2]>, Fault> {
         let reached = self.graph.reached([self.equations[index]]);
-        let steps = self.graph.steps().enumerate().filter(|(place, _)| reached[*place]);
+        let steps = self.graph.steps_at(&reached);
         let modulus = steps.into_iter().find_map(|(place, step)| match step {
             Step::Unary(UnaryFunction::Abs, a) => Some((place, a)),
             _ => None,

@@ -1,6 +1,7 @@
 //! Densities of maps that are proved to be one-to-one, and of maps that are not.
 
 use super::claims;
+use liouville::claim::PlaceName;
 use liouville::verdict::Verdict;
 
 /// The remark on the density 1 of a map, which is proved.
@@ -82,10 +83,7 @@ fn a_map_that_is_one_to_one_on_a_level_alone_is_proved_there() {
     let text = "title = 't'\n[state]\nx = '-2..2'\nz = '-1..3'\n[level]\nequations = ['z = 2']\n[map]\n\
                 x = '(x + |x|)/2 + z/|z|*(x − |x|)/2'\nz = 'z'\n[[claim]]\ndensity = '1'\n";
     let report = claims(text).remove(0);
-    assert_eq!(
-        (report.verdict, report.evidence.holds),
-        (Verdict::Proved, vec!["level".to_string()])
-    );
+    assert_eq!((report.verdict, report.evidence.holds), (Verdict::Proved, vec![PlaceName::Level]));
 }
 
 #[test]

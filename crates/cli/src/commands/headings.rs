@@ -55,7 +55,19 @@ const HEADINGS: [(&str, &[&str]); 6] = [
         ],
     ),
     ("Tables and parts", &["settings", "part", "force"]),
-    ("Sampling and limits", &["seed", "states", "trust", "threads", "within", "megabytes"]),
+    (
+        "Sampling and limits",
+        &[
+            "seed",
+            "states",
+            "trust",
+            "threads",
+            "within",
+            "megabytes",
+            "count-seconds",
+            "count-megabytes",
+        ],
+    ),
 ];
 
 /// Puts the commands in order.

@@ -285,7 +285,7 @@ pub(super) fn stated(case: &Case, motions: bool) -> Vec<ClaimReport> {
     }
     let claims = case.claims.iter().map(|own| ClaimReport {
         formula: own.kind.text(),
-        place: own.place.name(&case.model),
+        place: own.place.name(&case.model).to_string(),
         cell: own.cell.clone(),
         note: own.note.clone(),
         ..open(&own.name, own.kind.name(), &own.source, own.expect)

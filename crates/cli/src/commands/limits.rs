@@ -146,6 +146,35 @@ impl LimitArgs {
     }
 }
 
+/// A watch that raises a flag when the program takes more memory than it is to, until it is dropped.
+pub struct MemoryWatch(Arc<AtomicBool>);
+
+impl MemoryWatch {
+    /// Starts a watch; without a limit there is nothing to see.
+    pub fn start(most: Option<u64>, raised: Arc<AtomicBool>) -> Self {
+        let done = Arc::new(AtomicBool::new(most.is_none()));
+        let ended = Arc::clone(&done);
+        if let Some(most) = most {
+            std::thread::spawn(move || {
+                while !ended.load(Ordering::Relaxed) {
+                    if memory().is_some_and(|own| own > most) {
+                        raised.store(true, Ordering::Relaxed);
+                        return;
+                    }
+                    std::thread::sleep(GLANCE);
+                }
+            });
+        }
+        Self(done)
+    }
+}
+
+impl Drop for MemoryWatch {
+    fn drop(&mut self) {
+        self.0.store(true, Ordering::Relaxed);
+    }
+}
+
 /// Returns the flag of the process that Ctrl-C and a request to end raise; a second Ctrl-C exits.
 pub fn signals() -> Result<Arc<AtomicBool>, String> {
     static RAISED: OnceLock<Arc<AtomicBool>> = OnceLock::new();

@@ -2,7 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::report::motion_certificate::{HORSESHOES, ORBITS, verify};
+use crate::report::certificate::FORMAT;
+use crate::report::motion_certificate::verify;
 use clap::Args;
 use liouville::verdict::Options;
 use liouville_search::Meter;
@@ -11,9 +12,6 @@ use super::eval::read_settings;
 use super::progress::telling;
 use super::threads::pool;
 use super::{CommandOutput, LimitArgs, parse_threads, source};
-
-/// Words by which a certificate of a proof by points is known.
-const BY_POINTS: &str = "\"liouville certificate 1\"";
 
 #[derive(Debug, Args)]
 pub struct Verify {
@@ -56,8 +54,8 @@ pub fn run(options: &Verify) -> Result<CommandOutput, String> {
 fn one(path: &Path, options: &Verify) -> Result<Result<String, String>, String> {
     let help = "`liouville check CASE --motion --certificate FOLDER` writes certificates";
     let text = source::text(path, help)?;
-    if ![ORBITS, HORSESHOES].iter().any(|format| text.contains(format)) && text.contains(BY_POINTS)
-    {
+    let read: Option<serde_json::Value> = serde_json::from_str(&text).ok();
+    if read.is_some_and(|own| own.get("format").is_some_and(|format| format == FORMAT)) {
         let reason = "a proof by points, which `python3 docs/certificates/check.py` checks";
         return Ok(Err(reason.to_string()));
     }

@@ -12,7 +12,7 @@ use sha2::{Digest, Sha256};
 use super::sha256;
 
 /// Name and version of the format.
-const FORMAT: &str = "liouville certificate 1";
+pub const FORMAT: &str = "liouville certificate 1";
 /// Numbers of the test: primes, points for each, draws for each.
 const PRIMES: usize = 4;
 const TEST_POINTS: usize = 2;

@@ -4,6 +4,7 @@
 mod html;
 mod latex;
 mod markdown;
+mod markup;
 mod text;
 
 use std::collections::BTreeMap;

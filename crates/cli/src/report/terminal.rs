@@ -217,7 +217,8 @@ fn remark(claim: &ClaimReport) -> String {
             words.push(evidence.method.to_string());
         }
         Verdict::Confirmed | Verdict::Proved => {
-            words.push(evidence.holds.join("; "));
+            let holds: Vec<String> = evidence.holds.iter().map(ToString::to_string).collect();
+            words.push(holds.join("; "));
             match evidence.independence {
                 Some(Independence::Constant) => words.push("constant on the level".to_string()),
                 Some(Independence::General) => words.push("function of the energy".to_string()),

@@ -1,5 +1,6 @@
 //! Judgement of groups of claims.
 
+use liouville::claim::PlaceName;
 use std::sync::Arc;
 
 use libtest_mimic::{Failed, Trial};
@@ -71,8 +72,7 @@ fn also(claim: &Claim, answer: &Answer) -> Result<(), String> {
         Answer::Verdict(report) => (report.evidence.sign, report.evidence.independence),
         Answer::Error(_) => (None, None),
     };
-    let widest =
-        |report: &ClaimReport| report.evidence.holds.iter().any(|place| place == "everywhere");
+    let widest = |report: &ClaimReport| report.evidence.holds.contains(&PlaceName::Everywhere);
     match claim.also.as_deref() {
         None => Ok(()),
         Some("not everywhere") => match answer {

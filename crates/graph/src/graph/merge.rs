@@ -136,7 +136,7 @@ impl Graph {
         // One bit for each class that takes an operation.
         let mut bits: Vec<Option<usize>> = vec![None; self.len()];
         let mut count = 0;
-        for (place, step) in self.steps().enumerate().filter(|(place, _)| reached[*place]) {
+        for (place, step) in self.steps_at(reached) {
             let bit = &mut bits[members[place].class];
             if bit.is_none() && step.is_computed() {
                 *bit = Some(count);
@@ -147,7 +147,7 @@ impl Graph {
         let mut ways: Vec<Option<Way>> = vec![None; self.len()];
         for _ in 0..PASSES {
             let mut settled = true;
-            for (place, step) in self.steps().enumerate().filter(|(place, _)| reached[*place]) {
+            for (place, step) in self.steps_at(reached) {
                 let Member { class, factor } = &members[place];
                 let mut needs = Set::empty(count);
                 let known = step.arguments().all(|argument| {

@@ -44,6 +44,29 @@ impl Step<'_> {
         }
     }
 
+    /// Whether the step is a root of any index: it has branches, and no value at some arguments.
+    pub fn is_root(&self) -> bool {
+        match self {
+            Step::Unary(function, _) => *function == UnaryFunction::Sqrt,
+            Step::Power(_, exponent) => exponent.to_integer().is_none(),
+            _ => false,
+        }
+    }
+
+    /// Whether the step is a modulus.
+    pub fn is_modulus(&self) -> bool {
+        matches!(self, Step::Unary(UnaryFunction::Abs, _))
+    }
+
+    /// Whether the step is a function that has no values modulo a prime: exp, ln, sin, cos, atan or x^y.
+    pub fn is_transcendental(&self) -> bool {
+        use UnaryFunction::{Atan, Cos, Exp, Ln, Sin};
+        matches!(
+            self,
+            Step::Unary(Exp | Ln | Sin | Cos | Atan, _) | Step::Binary(BinaryOperation::Pow, ..)
+        )
+    }
+
     /// Repeats a step other than an input in the recording under way, from the values of its
     /// arguments.
     pub fn repeat_from(&self, at: impl Fn(usize) -> Option<Expr>) -> Option<Expr> {
@@ -106,6 +129,15 @@ impl Graph {
     pub fn reached(&self, outputs: impl IntoIterator<Item = Expr>) -> Vec<bool> {
         let places: Vec<usize> = outputs.into_iter().map(|output| self.place(output)).collect();
         self.reached_from(&places)
+    }
+
+    /// Steps with their places where a mark is set, as [`Graph::reached`] sets them.
+    pub fn steps_at<'g>(
+        &'g self,
+        marks: &'g [bool],
+    ) -> impl DoubleEndedIterator<Item = (usize, Step<'g>)> {
+        let marked = marks.iter().enumerate().filter(|(_, own)| **own);
+        marked.map(|(place, _)| (place, self.step(place)))
     }
 
     /// Marks the steps that those at these places need.

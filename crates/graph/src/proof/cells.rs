@@ -186,9 +186,9 @@ fn layers(graph: &Graph, reached: &[bool]) -> Vec<Vec<bool>> {
     for place in (0..graph.len()).filter(|place| reached[*place]) {
         let step = graph.step(place);
         let below = step.arguments().map(|argument| depths[argument]).max().unwrap_or(0);
-        let is_root = is_root(&step);
+        let is_root = step.is_root();
         // √√x belongs to x, like √x.
-        let is_first = step.arguments().all(|argument| !self::is_root(&graph.step(argument)));
+        let is_first = step.arguments().all(|argument| !graph.step(argument).is_root());
         depths[place] = below + usize::from(is_root && is_first);
         let is_function = matches!(
             step,
@@ -207,14 +207,6 @@ fn layers(graph: &Graph, reached: &[bool]) -> Vec<Vec<bool>> {
         (0..graph.len()).map(is_within).collect()
     };
     (0..deepest.min(MOST_NESTED as usize)).map(within).collect()
-}
-
-fn is_root(step: &Step<'_>) -> bool {
-    match step {
-        Step::Unary(UnaryFunction::Sqrt, _) => true,
-        Step::Power(_, exponent) => exponent.to_integer().is_none(),
-        _ => false,
-    }
 }
 
 /// Replaces sign inputs by their chosen values.

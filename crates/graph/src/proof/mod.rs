@@ -122,7 +122,7 @@ pub use reconstruct::reconstruct;
 pub use rewrite::conditions;
 pub use rng::{ProofRng, ProofStream};
 pub use root_numbers::root_numbers;
-pub use trial::{Certificate, fewest};
+pub use trial::{Certificate, fewest, sum_log2};
 pub use volterra::volterra_sum;
 
 use rayon::prelude::*;

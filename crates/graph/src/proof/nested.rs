@@ -138,11 +138,7 @@ fn without_roots(
     mut polynomial: Polynomial,
     square_of: impl Fn(u32) -> Option<Polynomial>,
 ) -> Option<Polynomial> {
-    let is_root = |variable: &u32| match graph.step(*variable as usize) {
-        Step::Unary(UnaryFunction::Sqrt, _) => true,
-        Step::Power(_, exponent) => exponent.to_integer().is_none(),
-        _ => false,
-    };
+    let is_root = |variable: &u32| graph.step(*variable as usize).is_root();
     // The last root first: it may contain those before it.
     while let Some(root) = polynomial.variables().into_iter().rev().find(is_root) {
         let [even, odd] = polynomial.split(root, &square_of(root)?)?;

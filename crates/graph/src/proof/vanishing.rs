@@ -20,7 +20,7 @@ pub(super) fn vanishes_nowhere_openly(
 ) -> bool {
     let reached = graph.reached_from(&[place]);
     let steps = || graph.steps().zip(&reached).filter(|(_, own)| **own).map(|(step, _)| step);
-    if !steps().any(|step| is_function(&step)) {
+    if !steps().any(|step| step.is_transcendental()) {
         return true;
     }
     if !steps().all(|step| is_entire(&step, sources)) {
@@ -30,15 +30,6 @@ pub(super) fn vanishes_nowhere_openly(
     let point: Vec<Extent> = (0..graph.inputs()).map(|input| Extent::at(&number(input))).collect();
     let region = Region { graph, inputs: &point, facts: &[], classes: &Classes::default() };
     region.known_sign(place).is_some_and(|known| !known.may_vanish)
-}
-
-/// Whether a symbol stands for the value of a step.
-fn is_function(step: &Step<'_>) -> bool {
-    use UnaryFunction::{Atan, Cos, Exp, Ln, Sin};
-    matches!(
-        step,
-        Step::Unary(Exp | Ln | Sin | Cos | Atan, _) | Step::Binary(BinaryOperation::Pow, ..)
-    )
 }
 
 /// Whether a step is analytic for all real arguments.

@@ -2,6 +2,7 @@
 
 use super::document::{JudgedClaim, SectionBlock, VerdictMark};
 use crate::evidence::options;
+use liouville::claim::PlaceName;
 use liouville::verdict::{
     ClaimReport, DensitySign, Evidence, Flaw, Independence, Verdict, Witness,
 };
@@ -123,11 +124,11 @@ fn remarks(tested: &TestedClaim) -> Vec<String> {
 }
 
 /// Domain on which a claim holds, in words.
-fn place(holds: &[String]) -> Option<String> {
-    Some(match holds.first()?.as_str() {
-        "everywhere" => "everywhere".to_string(),
-        "level" => "on the level set".to_string(),
-        equation => format!("on {equation}"),
+fn place(holds: &[PlaceName]) -> Option<String> {
+    Some(match holds.first()? {
+        PlaceName::Level => "on the level set".to_string(),
+        equations @ PlaceName::Equations(_) => format!("on {equations}"),
+        place => place.to_string(),
     })
 }
 

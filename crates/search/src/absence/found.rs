@@ -1,7 +1,7 @@
 //! Invariants that parts of a search find where a count leaves room for them.
 
 use super::super::products::degree_in_state;
-use super::super::{Found, SearchError, SearchReport, densities, integrals, orbit};
+use super::super::{Found, FoundKind, SearchError, SearchReport, densities, integrals, orbit};
 use super::{AbsenceCase, claimed_densities};
 use liouville::formula::Formula;
 use liouville::verdict::Verdict;
@@ -13,7 +13,7 @@ pub type Part<'p> = &'p mut dyn FnMut(&mut SearchReport) -> Result<(), SearchErr
 pub fn first(
     parts: &mut [Part<'_>],
     report: &mut SearchReport,
-    kind: &str,
+    kind: FoundKind,
     is_wanted: &dyn Fn(&Formula) -> Result<bool, SearchError>,
 ) -> Result<Option<String>, SearchError> {
     let mut seen = 0;
@@ -25,11 +25,11 @@ pub fn first(
         for found in &report.found[seen..] {
             // What holds for one listed value says nothing of the others.
             let is_own = found.verdict == Verdict::Proved && found.with.is_empty();
-            let function = found.function.as_ref().filter(|_| is_own && found.kind == kind);
+            let function = found.function().filter(|_| is_own && found.kind == kind);
             if let Some(function) = function
                 && is_wanted(function)?
             {
-                return Ok(Some(shown(kind, found)));
+                return Ok(Some(shown(kind.name(), found)));
             }
         }
         seen = report.found.len();
@@ -48,7 +48,7 @@ pub fn integral(asked: &AbsenceCase<'_>, most: u32) -> Result<Option<String>, Se
         let degree = degree_in_state(case, function, effort.options.seed)?;
         Ok(degree.is_some_and(|degree| degree <= most) && asked.is_new(function)?)
     };
-    first(&mut parts, &mut SearchReport::default(), "integral", &is_wanted)
+    first(&mut parts, &mut SearchReport::default(), FoundKind::Integral, &is_wanted)
 }
 
 /// Returns a proved density of the class of a claim that a search finds.
@@ -62,7 +62,7 @@ pub fn density(asked: &AbsenceCase<'_>, most: u32) -> Result<Option<String>, Sea
             orbit::search(case, effort, false, report, &mut |_| {})
         }];
     let is_wanted = |function: &Formula| claimed_densities::is_of_class(asked, function, most);
-    first(&mut parts, &mut SearchReport::default(), "density", &is_wanted)
+    first(&mut parts, &mut SearchReport::default(), FoundKind::Density, &is_wanted)
 }
 
 /// Writes a find with the definitions of the names that it uses.
@@ -71,5 +71,5 @@ pub fn shown(what: &str, found: &Found) -> String {
         found.abbreviations.iter().map(|(name, text)| format!("{name} = {text}")).collect();
     let names = if names.is_empty() { String::new() } else { format!(", {}", names.join(", ")) };
     let remark = found.evidence.remark.as_ref().map(|remark| format!("; {remark}"));
-    format!("{what}, proved: {}{names}{}", found.formula, remark.unwrap_or_default())
+    format!("{what}, proved: {}{names}{}", found.text(), remark.unwrap_or_default())
 }

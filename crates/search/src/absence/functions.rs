@@ -66,15 +66,15 @@ pub fn no_integral(asked: &AbsenceCase<'_>, degree: u32) -> Result<AbsenceOutcom
             other => other?,
         }
         for found in &report.found {
-            let Some(function) = &found.function else { continue };
-            let own = found.kind == "integral" && found.with.is_empty();
+            let Some(function) = found.function() else { continue };
+            let own = found.is_integral();
             if own && found.verdict == Verdict::Proved && asked.is_new(function)? {
                 if fractions::is_within(case, &effort, known, function, (&class, counted, degree))?
                 {
-                    let exhibit = format!("integral, proved: {}", found.formula);
+                    let exhibit = format!("integral, proved: {}", found.text());
                     return Ok(AbsenceOutcome::Exhibited(exhibit));
                 }
-                higher.get_or_insert_with(|| found.formula.clone());
+                higher.get_or_insert_with(|| found.text().to_string());
             }
         }
     }

@@ -6,6 +6,7 @@ use super::super::leading::opposite;
 use super::super::terms::{is_one, multiplied, numeric_exponent};
 use super::polynomials::{Counting, nothing};
 use super::{AbsenceOutcome, claimed_densities};
+use crate::echelon::nonzero;
 use liouville::formula::Formula;
 use liouville::number::rational::Rational;
 
@@ -85,7 +86,7 @@ impl Counting<'_> {
             ))
         };
         let Some(vector) = own else { return open() };
-        let support: Vec<usize> = (0..vector.len()).filter(|k| vector[*k] != 0).collect();
+        let support = nonzero(vector);
         let used: Vec<usize> = support.iter().map(|k| columns[*k]).collect();
         let Some(coefficients) = PrimitiveVector::of(&self.system, &used)? else { return open() };
         let last = support.len() - 1;

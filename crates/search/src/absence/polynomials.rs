@@ -16,6 +16,7 @@ use super::super::products::{DEGREE_PRIMES, Generators};
 use super::known::{contains_integrals, has_lists, rank};
 use super::leading;
 use super::{AbsenceCase, AbsenceOutcome, Counted, found, generated};
+use crate::echelon::nonzero;
 use liouville::claim::Claim;
 use liouville::formula::{Formula, FormulaError};
 use liouville::graph::Expr;
@@ -303,7 +304,7 @@ impl<'a> Counting<'a> {
         vector: &[u64],
         direction: usize,
     ) -> Result<Option<Formula>, SearchError> {
-        let support: Vec<usize> = (0..vector.len()).filter(|k| vector[*k] != 0).collect();
+        let support = nonzero(vector);
         let start = self.columns(direction).first().copied();
         let columns = |start: usize| support.iter().map(|k| start + k).collect::<Vec<_>>();
         let Some(start) = start else { return Ok(None) };

@@ -1,7 +1,7 @@
 //! Absence of Darboux polynomials, whose zeros are invariant relations.
 
 use super::super::orbit::{self, no_others};
-use super::super::{Effort, SearchError, SearchReport};
+use super::super::{Effort, FoundKind, SearchError, SearchReport};
 use super::{AbsenceCase, AbsenceOutcome};
 use liouville::claim::ClaimKind;
 use liouville::formula::Formula;
@@ -51,17 +51,17 @@ pub fn no_invariant_relation(
         other => other?,
     }
     for found in report.found.iter().filter(|found| found.verdict == Verdict::Proved) {
-        let Some(function) = &found.function else { continue };
+        let Some(function) = found.function() else { continue };
         // F − c is a relation for each number c, and few of these are among the known ones.
         let (what, others) = match found.kind {
-            "darboux-polynomial" => ("invariant relation", known.as_slice()),
-            "integral" if found.with.is_empty() => {
+            FoundKind::DarbouxPolynomial => ("invariant relation", known.as_slice()),
+            FoundKind::Integral if found.with.is_empty() => {
                 ("integral, each level of which is an invariant relation", [].as_slice())
             }
             _ => continue,
         };
         if no_others::is_other(case, effort, function, others, degree)? {
-            return Ok(AbsenceOutcome::Exhibited(format!("{what}, proved: {}", found.formula)));
+            return Ok(AbsenceOutcome::Exhibited(format!("{what}, proved: {}", found.text())));
         }
     }
     Ok(AbsenceOutcome::Open(reason))

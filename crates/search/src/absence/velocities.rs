@@ -5,7 +5,8 @@ use super::super::local::Coordinates;
 use super::super::origin::Remark;
 use super::super::products::degree_in;
 use super::super::{
-    Effort, Found, SearchError, SearchReport, ansatz, densities, integrals, multipliers, orbit,
+    Effort, Found, FoundKind, SearchError, SearchReport, ansatz, densities, integrals, multipliers,
+    orbit,
 };
 use super::found::{Part, shown};
 use super::{AbsenceCase, AbsenceOutcome, Counted, claimed_densities, generated};
@@ -137,11 +138,9 @@ fn witness(
     most: u32,
     report: &SearchReport,
 ) -> Result<Option<String>, SearchError> {
-    let own = |found: &&Found| {
-        found.kind == "integral" && found.with.is_empty() && found.verdict == Verdict::Proved
-    };
+    let own = |found: &&Found| found.is_integral() && found.verdict == Verdict::Proved;
     for found in report.found.iter().filter(own) {
-        let Some(function) = &found.function else { continue };
+        let Some(function) = found.function() else { continue };
         let low = degree_in(asked.case, function, coordinates, asked.effort.options.seed)?;
         if low.is_some_and(|degree| degree <= most) && asked.is_new(function)? {
             return Ok(Some(shown("integral", found)));
@@ -181,8 +180,9 @@ fn no_density(
             counted: "0 are counted".to_string(),
         });
     }
-    for found in report.of_case("density").filter(|found| found.verdict == Verdict::Proved) {
-        let Some(function) = &found.function else { continue };
+    for found in report.of_case(FoundKind::Density).filter(|found| found.verdict == Verdict::Proved)
+    {
+        let Some(function) = found.function() else { continue };
         if claimed_densities::is_of_class(asked, function, most)? {
             return Ok(AbsenceOutcome::Exhibited(shown("density", found)));
         }

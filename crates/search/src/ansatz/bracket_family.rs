@@ -115,7 +115,7 @@ impl BracketFamily {
 
 /// Components of the state.
 fn names(case: &Case) -> Result<Vec<Formula>, FormulaError> {
-    (0..case.model.dimension()).map(|k| case.formula(&case.model.component_name(k))).collect()
+    case.model.state_formulas()
 }
 
 /// Pairs i < j of components.

@@ -77,8 +77,8 @@ impl BracketSearch<'_> {
         let state = &self.case.model.state;
         let entry = |i: usize, j: usize| self.entry(entries, i, j);
         let mut named = Vec::new();
-        for variable in state {
-            named.push((variable.name.clone(), self.case.formula(&variable.name)?));
+        for variable in self.case.model.state_variables() {
+            named.push((variable.to_string(), variable));
         }
         let asked = self.case.with_variables(&named)?;
         let starts: Vec<usize> = state

@@ -234,7 +234,7 @@ fn denominators(case: &Case, terms: &[&Formula]) -> Result<Vec<Formula>, SearchE
         found.push(sum.bracketed());
         // A root beside those of the field may depend on them.
         if root_steps(case)? == 0 {
-            found.push(case.formula(&format!("√({sum})"))?);
+            found.push(sum.sqrt()?);
         }
     }
     if terms.len() <= FEW {

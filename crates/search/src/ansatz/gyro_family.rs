@@ -94,12 +94,13 @@ impl GyroFamily {
                 Err(reason) => Ok(Err(reason)),
             };
         }
-        let axes = ["[1, 0, 0]", "[0, 1, 0]", "[0, 0, 1]"];
         let mut own = Vec::new();
-        for axis in axes {
-            own.extend(with_gyrostat(&case.model, &case.formula(axis)?));
+        for axis in 0..3 {
+            let unit = [0, 1, 2].map(|k| Formula::number(i64::from(k == axis)));
+            let axis = Formula::vector(&unit.each_ref())?;
+            own.extend(with_gyrostat(&case.model, &axis));
         }
-        let variables = AnsatzVariables::of(case).filter(|_| own.len() == axes.len());
+        let variables = AnsatzVariables::of(case).filter(|_| own.len() == 3);
         let below = read(["1", "(γ,B*γ)", "(γ,J⁻¹*γ)"], &case.model.vocabulary);
         Ok(variables.map_or_else(
             || Err("the system admits none, or has one".to_string()),
@@ -145,7 +146,7 @@ impl GyroFamily {
             below.push(sum.bracketed());
             // A root beside those of the field may depend on them.
             if root_steps(case)? == 0 {
-                let root = case.formula(&format!("√({sum})"))?;
+                let root = sum.sqrt()?;
                 below.push(root.clone());
                 below.push((sum.bracketed() * &root)?);
             }

@@ -4,7 +4,7 @@
 //! combinations of others, with functions as coefficients, are left out.
 
 use super::super::ask::{holds, judged_alone};
-use super::super::{Found, SearchError, SearchReport};
+use super::super::{Found, FoundKind, SearchError, SearchReport};
 use super::at_random::values_at_random;
 use super::forces::with_constants;
 use super::gyro_second::{GyroDirection, Survivors};
@@ -47,8 +47,8 @@ impl Survivors<'_> {
         };
         let text = integral.to_string();
         let model = &extended.model;
-        let mut one = Found::of_several("integral", text, &[integral], verdict, model);
-        one.with = vec![(family.word(), format!("{} for {functions}", family.text(&slots)))];
+        let mut one = Found::of_several(FoundKind::Integral, text, &[integral], verdict, model);
+        one.with = vec![family.given(format!("{} for {functions}", family.text(&slots)))];
         report.found.push(one);
         Ok(directions.len())
     }

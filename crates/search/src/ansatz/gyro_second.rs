@@ -8,7 +8,7 @@
 //! (∂F₀, A(S)) + (∂F₁, A(∇U)) = 0, are linear in F₀ and U for one direction.
 
 use super::super::ask::{holds, judged_alone};
-use super::super::{Found, SearchError, SearchReport};
+use super::super::{Found, FoundKind, Given, SearchError, SearchReport};
 use super::coefficients::PrimitiveVector;
 use super::factors;
 use super::forces::{with_constants, with_potential};
@@ -271,9 +271,9 @@ impl Survivors<'_> {
             ));
             return Ok(false);
         }
-        let mut one = Found::new("integral", &formula, None, verdict, &extended.model);
-        one.with = vec![(family.word(), family.text(&slots))];
-        one.with.extend(potential.map(|own| ("potential", own.to_string())));
+        let mut one = Found::new(FoundKind::Integral, &formula, None, verdict, &extended.model);
+        one.with = vec![family.given(family.text(&slots))];
+        one.with.extend(potential.map(|own| Given::Potential(own.to_string())));
         report.found.push(one);
         Ok(true)
     }

@@ -2,6 +2,7 @@
 
 use super::forces::{with_gyroscopic, with_gyrostat, with_rates};
 use super::gyro_family::{GyroEntry, GyroFamily};
+use crate::Given;
 use crate::terms::{TermSum, is_one};
 use liouville::formula::{Formula, FormulaError, FormulaResult, Type};
 use liouville::mechanics::Model;
@@ -99,6 +100,15 @@ impl GyroFamily {
             GyroEntry::Rotor => "gyrostat",
             GyroEntry::Term => "gyroscopic term",
             GyroEntry::Pairs(_) => "force",
+        }
+    }
+
+    /// What was added, with its text.
+    pub fn given(&self, text: String) -> Given {
+        match self.entry {
+            GyroEntry::Rotor => Given::Gyrostat(text),
+            GyroEntry::Term => Given::GyroscopicTerm(text),
+            GyroEntry::Pairs(_) => Given::Force(text),
         }
     }
 

@@ -10,7 +10,7 @@
 use super::force_split::{NO_CASIMIRS, added, commuting, has_casimirs, is_canonical, positions};
 use super::forces::with_potential;
 use crate::streams::SearchStream;
-use crate::terms::{read, recorded};
+use crate::terms::recorded;
 use crate::{Effort, SearchError};
 use liouville::case::Case;
 use liouville::graph::{Evaluator, Expr, Graph, Tape};
@@ -135,12 +135,9 @@ fn compared(
 /// Whether the brackets of some variables with all others depend on these variables alone.
 fn are_closed(case: &Case, positions: &[usize], effort: &Effort) -> Result<bool, SearchError> {
     let model = &case.model;
-    let names: Vec<String> = positions.iter().map(|k| model.component_name(*k)).collect();
-    let terms = read(names.iter().map(String::as_str), &model.vocabulary);
-    let changed: Option<Vec<Model>> = terms.iter().map(|own| with_potential(model, own)).collect();
-    let Some(changed) = changed.filter(|own| own.len() == positions.len()) else {
-        return Ok(false);
-    };
+    let terms = model.state_formulas()?;
+    let changed = positions.iter().map(|k| with_potential(model, &terms[*k]));
+    let Some(changed) = changed.collect::<Option<Vec<Model>>>() else { return Ok(false) };
     let (graph, values) = recorded(case, |jet| added(jet, &changed))?;
     let start = model.free_components();
     let is_shared = |input: usize| input < start || positions.contains(&(input - start));

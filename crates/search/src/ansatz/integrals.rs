@@ -16,6 +16,7 @@ use super::system::{Column, LinearSystem};
 use super::theorem::{Outcome, theorem};
 use super::{factors, note_unwritten};
 use crate::absence::has_lists;
+use crate::echelon::nonzero;
 use crate::hypotheses::stated;
 use crate::origin::{RemarkOrigin, TheoremOrigin};
 use liouville::case::Case;
@@ -202,7 +203,7 @@ impl IntegralSearch<'_> {
         report: &mut SearchReport,
     ) -> Result<Outcome, SearchError> {
         let Self { case, effort, .. } = *self;
-        let support: Vec<usize> = (0..vector.len()).filter(|k| vector[*k] != 0).collect();
+        let support = nonzero(vector);
         let Some(coefficients) = PrimitiveVector::of(system, &support)? else {
             let (degree, count, below) = (self.degree, support.len(), &self.below);
             let what = format!("an integral of degree {degree} with {count} terms over {below}");

@@ -5,7 +5,7 @@
 //! does not, and γ₂ at most once.
 
 use crate::series::exponents;
-use crate::terms::{one, read};
+use crate::terms::one;
 use liouville::case::Case;
 use liouville::formula::{Formula, FormulaResult};
 use liouville::mechanics::{Chart, System, VariableRole};
@@ -63,14 +63,8 @@ impl AnsatzVariables {
     /// Returns the components of a case's state with a given division; monomials may depend on each
     /// other on a level.
     pub fn divided(case: &Case, is_velocity: Vec<bool>) -> Option<Self> {
-        let model = &case.model;
-        let names: Vec<String> = (0..model.dimension()).map(|k| model.component_name(k)).collect();
-        let terms = read(names.iter().map(String::as_str), &model.vocabulary);
-        (terms.len() == model.dimension()).then_some(Self {
-            terms,
-            is_velocity,
-            ideal: Ideal::None,
-        })
+        let terms = case.model.state_formulas().ok()?;
+        Some(Self { terms, is_velocity, ideal: Ideal::None })
     }
 
     /// Places of the positions.

@@ -11,7 +11,7 @@ use num_integer::Integer;
 
 use super::super::ask::{holds, judged, judged_alone, proved_energy};
 use super::super::terms::integers;
-use super::super::{Effort, Found, SearchError, SearchReport, branches};
+use super::super::{Effort, Found, FoundKind, Given, SearchError, SearchReport, branches};
 use super::bracket_absence::Absence;
 use super::bracket_family::BracketFamily;
 use super::hamiltonians::{level_functions, written_energy};
@@ -60,8 +60,8 @@ pub fn brackets(
     let known: Vec<Formula> = {
         let claimed = report.claimed.iter().map(|one| &one.formula);
         // A find that the claims imply would be searched twice.
-        let found = report.of_case("integral").filter(|found| found.known.is_none());
-        found.filter_map(|found| found.function.as_ref()).chain(claimed).cloned().collect()
+        let found = report.of_case(FoundKind::Integral).filter(|found| found.known.is_none());
+        found.filter_map(Found::function).chain(claimed).cloned().collect()
     };
     let functions = match wanted {
         Hamiltonians::Known => {
@@ -174,7 +174,7 @@ impl<'a> HamiltonianSearch<'a> {
                 seconds += own.family.seconds();
                 if seconds > self.effort.seconds && !multiplier.is_one() {
                     report.remark(format!(
-                        "brackets with {name}: not all multipliers of time are tried; the bound is {} s, see --seconds",
+                        "brackets with {name}: not all multipliers of time are tried; the bound is {} s, see --count-seconds",
                         self.effort.seconds
                     ));
                     break 'all;
@@ -333,19 +333,19 @@ impl BracketSearch<'_> {
         if !reports.iter().all(holds) {
             return Ok(false);
         }
-        let mut with = vec![("Hamiltonian", name.to_string())];
-        with.extend(time.map(|time| ("multiplier", time.to_string())));
-        with.extend(level.iter().map(|function| ("Casimir", function.to_string())));
+        let mut with = vec![Given::Hamiltonian(name.clone())];
+        with.extend(time.map(Given::Multiplier));
+        with.extend(level.iter().cloned().map(Given::Casimir));
         for casimir in known.iter().filter(|other| other.text() != name.text()) {
             if self.is_casimir(&asked, casimir)? {
-                with.push(("Casimir", casimir.to_string()));
+                with.push(Given::Casimir(casimir.clone()));
             }
         }
         // Use the weakest of the verdicts.
         let weakest = reports.into_iter().min_by_key(|own| own.verdict == Verdict::Proved);
         if let Some(weakest) = weakest {
             let (text, parts) = (self.shown(&entries), entries.iter().collect::<Vec<_>>());
-            let mut found = Found::of_several("bracket", text, &parts, weakest, model);
+            let mut found = Found::of_several(FoundKind::Bracket, text, &parts, weakest, model);
             found.with = with;
             report.found.push(found);
         }

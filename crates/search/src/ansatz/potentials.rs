@@ -9,7 +9,7 @@ use super::super::ask::{holds, is_energy, judged_alone};
 use super::super::branches::are_true;
 use super::super::products::{degree_in, told};
 use super::super::terms::one;
-use super::super::{Effort, Excluded, Found, SearchError, SearchReport};
+use super::super::{Effort, Excluded, Found, FoundKind, Given, SearchError, SearchReport};
 use super::coefficients::{PrimitiveVector, Ratio};
 use super::force_family::{ForceEntry, ForceFamily};
 use super::force_text::{ForcedIntegral, SurvivingForce};
@@ -173,6 +173,13 @@ impl ForceSearch<'_> {
         }
     }
 
+    fn given(&self, text: String) -> Given {
+        match self.family.entry {
+            ForceEntry::Potential(_) => Given::Potential(text),
+            ForceEntry::Rates(_) => Given::Force(text),
+        }
+    }
+
     fn kind(&self) -> String {
         format!("{}s", self.word())
     }
@@ -267,8 +274,9 @@ impl ForceSearch<'_> {
                 let model = &forced.case.model;
                 let texts = (forced.integral, forced.force);
                 let judged = [&forced.judged];
-                let mut one = Found::of_several("integral", texts.0, &judged, verdict, model);
-                one.with = vec![(self.word(), texts.1)];
+                let mut one =
+                    Found::of_several(FoundKind::Integral, texts.0, &judged, verdict, model);
+                one.with = vec![self.given(texts.1)];
                 report.found.push(one);
                 return Ok(forced.is_whole);
             }

@@ -10,7 +10,7 @@ use super::super::library;
 use super::super::linear::SampledFunctions;
 use super::super::orbit;
 use super::super::terms::{is_one, numeric_exponent, one, recorded};
-use super::super::{Effort, SearchError, SearchReport};
+use super::super::{Effort, FoundKind, SearchError, SearchReport};
 use liouville::case::Case;
 use liouville::claim::{ClaimKind, Density};
 use liouville::formula::{Formula, FormulaError, FormulaResult, Type};
@@ -63,10 +63,11 @@ impl Scales {
             ClaimKind::Density(Density(formula)) if !effort.blind => Some(formula),
             _ => None,
         });
-        let densities: Vec<Formula> = report.functions("density").chain(claimed).cloned().collect();
+        let densities: Vec<Formula> =
+            report.functions(FoundKind::Density).chain(claimed).cloned().collect();
         let mut all = orbit::factors(case, effort, &densities)?;
-        let curves = report.found.iter().filter(|found| found.kind == "darboux-polynomial");
-        all.extend(curves.filter_map(|found| found.function.clone()));
+        let curves = report.found.iter().filter(|found| found.kind == FoundKind::DarbouxPolynomial);
+        all.extend(curves.filter_map(|found| found.function().cloned()));
         all.extend(library::factors(&case.model));
         all.truncate(FACTORS);
         let first_density = all.len();
@@ -262,7 +263,7 @@ impl TensorJet {
 /// Whether a value is a rational function of the inputs as it is recorded.
 fn is_rational(graph: &Graph, value: Expr) -> bool {
     let reached = graph.reached([value]);
-    let steps = graph.steps().enumerate().filter(|(place, _)| reached[*place]);
+    let steps = graph.steps_at(&reached);
     steps.map(|(_, step)| step).all(|step| match step {
         Step::Unary(function, _) => matches!(function, UnaryFunction::Neg | UnaryFunction::Recip),
         Step::Binary(operation, ..) => operation != BinaryOperation::Pow,

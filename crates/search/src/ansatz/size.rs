@@ -34,10 +34,13 @@ impl SystemSize {
     /// Returns the limit that the system exceeds, if any.
     pub fn beyond(&self, effort: &Effort) -> Option<String> {
         if self.megabytes() > effort.ansatz.megabytes {
-            return Some(format!("the bound is {} MB, see --megabytes", effort.ansatz.megabytes));
+            return Some(format!(
+                "the bound is {} MB, see --count-megabytes",
+                effort.ansatz.megabytes
+            ));
         }
         (self.seconds > effort.seconds)
-            .then(|| format!("the bound is {} s, see --seconds", effort.seconds))
+            .then(|| format!("the bound is {} s, see --count-seconds", effort.seconds))
     }
 }
 

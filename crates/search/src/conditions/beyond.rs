@@ -1,5 +1,6 @@
 //! Conditions of several equations on the parameters of a field that belong to none of codimension one.
 
+use crate::Given;
 use std::cell::Cell;
 
 use super::equations::ParametricEquations;
@@ -14,11 +15,11 @@ use super::singled::{UNKNOWN, written};
 use super::split::SplitCase;
 use super::values::integrals_with;
 use super::{ParameterCondition, ideal, isolated, solved};
+use crate::Found;
 use crate::SearchError;
 use crate::ansatz::system::PrimePoint;
 use crate::budget::STEPS;
 use crate::origin::ConditionOrigin;
-use crate::report::Found;
 use crate::streams::SearchStream;
 
 impl ConditionSearch<'_> {
@@ -181,11 +182,11 @@ impl ConditionSearch<'_> {
     /// Searches for the integrals where equations hold, and writes these.
     fn tell_isolated(&mut self, own: &[Hypersurface]) -> Result<String, SearchError> {
         let text = written(own, &self.whole.scalars);
-        let known = |found: &Found| found.with.iter().any(|(_, with)| *with == text);
+        let known = |found: &Found| found.with.iter().any(|with| with.text() == text);
         let cases = solved::with_equations(self.whole, own).unwrap_or_default();
         if !self.report.found.iter().any(known) && self.left > 0.0 {
             for fixed in &cases {
-                let with = ("condition", text.clone());
+                let with = Given::Condition(text.clone());
                 integrals_with(&fixed.case, with, self.effort, self.report)?;
                 self.left -= SEARCH;
             }

@@ -5,7 +5,7 @@ use liouville::case::Case;
 use super::{MOST_LISTED, ParameterCondition, several};
 use crate::lists::{self, ListedCase};
 use crate::origin::Remark;
-use crate::{Effort, Found, SearchError, SearchReport};
+use crate::{Effort, Found, Given, SearchError, SearchReport};
 
 /// Words for what holds for all values.
 const EACH: &str = "each of the listed values";
@@ -50,7 +50,7 @@ pub fn conditions(
     }
     for (mut own, values) in found {
         if values.len() < all.len() {
-            own.with.push(("value", values.join(", or ")));
+            own.with.push(Given::Value(values.join(", or ")));
         }
         report.found.push(own);
     }

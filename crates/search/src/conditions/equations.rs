@@ -1,11 +1,10 @@
 //! Equations for the coefficients of polynomial integrals, as functions of the parameters.
 
 use liouville::case::Case;
-use liouville::formula::{Formula, Type};
 
 use crate::ansatz::system::{Column, LinearSystem, PrimePoint};
 use crate::orbit::monomials;
-use crate::terms::{one, read};
+use crate::terms::one;
 use crate::{Effort, SearchError};
 
 /// Largest number of unknowns.
@@ -26,11 +25,9 @@ impl<'e> ParametricEquations<'e> {
     pub fn new(case: &Case, degree: u32, effort: &'e Effort) -> Result<Option<Self>, SearchError> {
         let model = &case.model;
         let dimension = model.dimension();
-        let names: Vec<String> = (0..dimension).map(|k| model.component_name(k)).collect();
-        let terms: Vec<Formula> = read(names.iter().map(String::as_str), &model.vocabulary);
-        let is_scalar = |own: &Formula| own.value_type() == Type::Scalar;
+        let terms = model.state_formulas()?;
         let count = monomials::count(dimension, degree);
-        if terms.len() < dimension || !terms.iter().all(is_scalar) || count > UNKNOWNS {
+        if count > UNKNOWNS {
             return Ok(None);
         }
         let mut system = LinearSystem::record(case, effort, |jet, recording| {

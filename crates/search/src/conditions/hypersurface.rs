@@ -68,8 +68,7 @@ impl Hypersurface {
         let images: Vec<u64> =
             self.terms.iter().map(|(_, value)| m.rational(value)).collect::<Option<_>>()?;
         let value = |t: u64| {
-            let point: Vec<u64> =
-                origin.iter().zip(slope).map(|(a, b)| m.add(*a, m.mul(t, *b))).collect();
+            let point = m.along(origin, slope, t);
             let terms = self.terms.iter().zip(&images);
             terms.fold(0, |sum, ((exponents, _), image)| {
                 m.add(sum, m.mul(*image, power(&point, exponents, m)))

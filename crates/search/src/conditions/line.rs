@@ -140,7 +140,7 @@ impl<'r> Lines<'r> {
         }
         let degree = common.len() - 1;
         let roots = ring.roots(&common);
-        let points = roots.into_iter().filter_map(|t| self.confirmed(&at(&m, &origin, &slope, t)));
+        let points = roots.into_iter().filter_map(|t| self.confirmed(&m.along(&origin, &slope, t)));
         LineResult::Points(points.collect(), degree)
     }
 
@@ -165,7 +165,7 @@ impl<'r> Lines<'r> {
                     return Err(Gap::Undefined);
                 }
                 let places: [u64; RESIDUAL_LANES] = std::array::from_fn(|_| self.rng.element(&m));
-                let points = places.map(|t| [&at(&m, origin, slope, t), state].concat());
+                let points = places.map(|t| [&m.along(origin, slope, t), state].concat());
                 let seen = self.residual.at(&mut self.evaluator, &points);
                 let defined = places.into_iter().zip(seen);
                 values.extend(defined.filter_map(|(t, seen)| Some((t, seen.residual?))));
@@ -214,9 +214,4 @@ impl<'r> Lines<'r> {
         }
         None
     }
-}
-
-/// Returns the point of a line with parameter t.
-fn at(m: &Modulus, origin: &[u64], slope: &[u64], t: u64) -> Vec<u64> {
-    origin.iter().zip(slope).map(|(a, b)| m.add(*a, m.mul(t, *b))).collect()
 }

@@ -8,7 +8,7 @@
 
 use std::ops::RangeInclusive;
 
-use liouville::number::prime::{Modulus, Polynomial, PrimePolynomials};
+use liouville::number::prime::{Polynomial, PrimePolynomials};
 
 use super::equations::ParametricEquations;
 use super::factors::{Bivariate, bivariate_factors, irreducible, lifted};
@@ -133,17 +133,12 @@ fn is_special(
             let Some(t) = ring.roots(&restricted).first().copied() else {
                 continue;
             };
-            let point = moved(&m, &origin, &slope, t);
+            let point = m.along(&origin, &slope, t);
             let general = lines.general;
             return Ok(Some(lines.nullity(&point)?.is_some_and(|own| own > general)));
         }
     }
     Ok(None)
-}
-
-/// Returns origin + t slope.
-fn moved(m: &Modulus, origin: &[u64], slope: &[u64], t: u64) -> Vec<u64> {
-    origin.iter().zip(slope).map(|(a, b)| m.add(*a, m.mul(t, *b))).collect()
 }
 
 /// Planes through one line.
@@ -213,7 +208,7 @@ impl<'p, 'l, 'e> Planes<'p, 'l, 'e> {
         // One line more than the degree confirms it.
         for s in 1..=degree as u64 + 1 {
             let s = m.integer(s);
-            let origin = moved(&m, &self.origin, direction, s);
+            let origin = m.along(&self.origin, direction, s);
             match self.special(&origin)? {
                 Some(own) if own.len() == first.len() => values.push((s, own)),
                 _ => return Ok(None),
@@ -321,7 +316,7 @@ impl<'p, 'l, 'e> Planes<'p, 'l, 'e> {
             // A polynomial of this degree in two variables is known by its values at these points.
             for (i, j) in (0..=own.degree).flat_map(|i| (0..=own.degree - i).map(move |j| (i, j))) {
                 let (t, s) = (m.integer(i as u64 + 1), m.integer(j as u64));
-                let point = moved(&m, &moved(&m, &self.origin, &self.slope, t), direction, s);
+                let point = m.along(&m.along(&self.origin, &self.slope, t), direction, s);
                 let rows = plane.iter().rev().map(|own| ring.evaluate(own, t));
                 let value = rows.fold(0, |sum, own| m.add(m.mul(sum, s), own));
                 let row = all.iter().map(|exponents| power(&point, exponents, &m));

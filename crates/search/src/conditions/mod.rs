@@ -76,7 +76,7 @@ use serde::Serialize;
 use super::lists::{self, ListedCase};
 use super::origin::ConditionOrigin;
 use super::terms::one;
-use super::{Effort, SearchError, SearchReport};
+use super::{Effort, FoundKind, SearchError, SearchReport};
 pub use coordinates::components;
 use liouville::case::{Case, PlacedClaim};
 use liouville::claim::Claim;
@@ -146,7 +146,7 @@ pub fn volumes(
     progress: &mut dyn FnMut(&str),
 ) -> Result<(), SearchError> {
     let is_field = matches!(case.model.system, System::Field(_));
-    let is_known = report.formulas("density").next().is_some();
+    let is_known = report.formulas(FoundKind::Density).next().is_some();
     if !is_field || is_known || case.model.free_components() == 0 {
         return Ok(());
     }

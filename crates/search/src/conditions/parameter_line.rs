@@ -154,8 +154,7 @@ impl<'l, 'e> ParameterLines<'l, 'e> {
             while samples.len() < count {
                 self.equations.effort.halt.check()?;
                 let t = m.integer(samples.len() as u64);
-                let point: Vec<u64> =
-                    origin.iter().zip(slope).map(|(a, b)| m.add(*a, m.mul(t, *b))).collect();
+                let point = m.along(origin, slope, t);
                 let at = self.at(&point);
                 let Some(rows) = self.equations.system.rows(&at, stream, &order, rank) else {
                     return Ok(None);

@@ -91,8 +91,7 @@ const SPARE: usize = 8;
 fn on_line(m: &Modulus, own: &PrimeTerms, origin: &[u64], slope: &[u64]) -> Polynomial {
     let values = (0..=u64::from(degree(own))).map(|t| {
         let t = m.integer(t);
-        let point: Vec<u64> =
-            origin.iter().zip(slope).map(|(a, b)| m.add(*a, m.mul(t, *b))).collect();
+        let point = m.along(origin, slope, t);
         (t, value(m, own, &point))
     });
     PrimePolynomials(*m).through(&values.collect::<Vec<_>>()).0

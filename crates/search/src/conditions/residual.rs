@@ -7,9 +7,8 @@ use crate::streams::SearchStream;
 use crate::terms::recorded;
 use liouville::case::{Case, PlacedClaim};
 use liouville::claim::LevelSubset;
-use liouville::graph::{Evaluator, Expr, Step, Tape};
+use liouville::graph::{Evaluator, Expr, Tape};
 use liouville::mechanics::Draw;
-use liouville::number::UnaryFunction;
 use liouville::number::prime::{Modulus, Prime, UNDEFINED};
 use liouville::number::rational::Rational;
 use liouville::proof::{ProofRng, root_numbers};
@@ -92,13 +91,7 @@ impl Residual {
         let laid_out = |outputs: &[Vec<Expr>]| Tape::new(&graph, &outputs.concat());
         let (inputs, numbers) = (graph.inputs(), root_numbers(&graph));
         let reached = graph.reached(outputs[0].iter().copied());
-        let is_root = |step: &Step<'_>| match step {
-            Step::Unary(UnaryFunction::Sqrt, _) => true,
-            Step::Power(_, exponent) => exponent.to_integer().is_none(),
-            _ => false,
-        };
-        let mut steps = graph.steps().zip(&reached).filter(|(_, is_reached)| **is_reached);
-        let has_roots = steps.any(|(step, _)| is_root(&step));
+        let has_roots = graph.steps_at(&reached).any(|(_, step)| step.is_root());
         let mut residual = Self {
             tape: laid_out(&outputs[..2]),
             names,

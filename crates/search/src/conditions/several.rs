@@ -19,7 +19,7 @@ use super::values::{self, integrals_with};
 use crate::branches;
 use crate::budget::STEPS;
 use crate::origin::ConditionOrigin;
-use crate::{Effort, SearchError, SearchReport};
+use crate::{Effort, Given, SearchError, SearchReport};
 
 /// Steps of a search for integrals where a condition holds: half a second.
 pub const SEARCH: f64 = STEPS / 2.0;
@@ -208,7 +208,7 @@ impl ConditionSearch<'_> {
                 Err(NoLocus::NoFractions) => {
                     self.report.remark(format!(
                         "conditions on {names} for more integrals of degree {degree} are not sought: \
-                         the equations take longer than --seconds allows, or are not fractions of \
+                         the equations take longer than --count-seconds allows, or are not fractions of \
                          low degree"
                     ));
                     return Ok(true);
@@ -262,13 +262,13 @@ impl ConditionSearch<'_> {
                     self.report.remark(unfilled(&text));
                     continue;
                 }
-                let with = ("condition", text.clone());
+                let with = Given::Condition(text.clone());
                 if self.left > 0.0 {
                     integrals_with(&fixed.case, with, self.effort, self.report)?;
                     self.left -= SEARCH;
                 } else {
                     self.report.remark(format!(
-                        "integrals where {text} are not sought: the bound is {} s, see --seconds",
+                        "integrals where {text} are not sought: the bound is {} s, see --count-seconds",
                         self.effort.seconds
                     ));
                 }

@@ -124,25 +124,22 @@ fn divide(case: &mut Case, index: usize) {
         };
         names.push(own);
     }
-    let texts: Vec<String> = entries
-        .iter()
-        .map(|entry| match entry {
-            Entry::Zero => "0".to_string(),
-            Entry::Plus(number) => names[*number].clone(),
-            Entry::Minus(number) => format!("−{}", names[*number]),
-        })
-        .collect();
     let mut divided = case.clone();
     let model = &mut divided.model;
+    let mut own = Vec::new();
     for (name, draw) in names.iter().zip(draws) {
         let meaning = Meaning::Parameter(model.parameters.len());
         model.vocabulary.add(name, meaning, Type::Scalar, Dependence::Parameters);
+        own.extend(model.vocabulary.formula_of(meaning));
         let origin = ParameterOrigin::Free(SamplerSpec::Scalar(draw));
         model.parameters.push(Parameter { name: name.clone(), kind: Type::Scalar, origin });
     }
-    let text = kind.listed(&texts, ["[", ", ", "]"]);
-    let whole = Formula::parse(&text, &model.vocabulary).ok();
-    if let Some(whole) = whole.filter(|whole| whole.value_type() == kind) {
+    let parts = entries.iter().map(|entry| match entry {
+        Entry::Zero => Formula::number(0),
+        Entry::Plus(number) => own[*number].clone(),
+        Entry::Minus(number) => -&own[*number],
+    });
+    if let Ok(whole) = kind.filled(&parts.collect::<Vec<_>>()) {
         model.parameters[index].origin = ParameterOrigin::Formula(whole);
         *case = divided;
     }

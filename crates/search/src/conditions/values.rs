@@ -29,7 +29,7 @@ use crate::echelon::Echelon;
 use crate::orbit;
 use crate::origin::ConditionOrigin;
 use crate::streams::SearchStream;
-use crate::{Effort, SearchError, SearchReport};
+use crate::{Effort, FoundKind, Given, SearchError, SearchReport};
 
 /// Number of minors that are compared, and the largest number if some roots are not explained.
 const MINORS: (u64, u64) = (2, 4);
@@ -96,7 +96,7 @@ fn up_to(
                 Err(SearchError::Long { seconds, .. }) => {
                     report.remark(format!(
                         "values of {name} with more integrals of degree {degree}, and what comes after, \
-                         are not sought: the bound is {seconds} s, see --seconds"
+                         are not sought: the bound is {seconds} s, see --count-seconds"
                     ));
                     return Ok(degree - 1);
                 }
@@ -125,7 +125,7 @@ fn up_to(
                             report.remark(unfilled(&text));
                             continue;
                         }
-                        let with = ("value", format!("{name} = {value}"));
+                        let with = Given::Value(format!("{name} = {value}"));
                         integrals_with(&fixed.case, with, effort, report)?;
                     }
                 }
@@ -206,21 +206,23 @@ impl OpenValues {
 /// Searches a case with a condition on its parameters for integrals besides those in general.
 pub fn integrals_with(
     fixed: &Case,
-    condition: (&'static str, String),
+    condition: Given,
     effort: &Effort,
     report: &mut SearchReport,
 ) -> Result<(), SearchError> {
-    let known = report.found.iter().filter(|own| own.kind == "integral" && own.with.is_empty());
+    let known = report.found.iter().filter(|own| own.is_integral());
     let mut own = SearchReport { found: known.cloned().collect(), ..SearchReport::default() };
     let before = own.found.len();
     match orbit::search(fixed, effort, false, &mut own, &mut |_| {}) {
         Err(SearchError::Stopped) => return Err(SearchError::Stopped),
         Err(error) => {
-            report.remark(format!("no integrals are sought with {}: {error}", condition.1));
+            report.remark(format!("no integrals are sought with {}: {error}", condition.text()));
         }
         Ok(()) => {}
     }
-    for mut found in own.found.into_iter().skip(before).filter(|own| own.kind == "integral") {
+    for mut found in
+        own.found.into_iter().skip(before).filter(|own| own.kind == FoundKind::Integral)
+    {
         found.with.push(condition.clone());
         report.found.push(found);
     }

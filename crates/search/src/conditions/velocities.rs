@@ -100,7 +100,7 @@ impl ValueSearch<'_> {
                 let Some(own) = self.of_degree(&local, degree, parameter, all.len())? else {
                     report.remark(format!(
                         "values of {} with more integrals of degree {degree}, and what comes after, \
-                         are not sought{}: the bound is {} s, see --seconds",
+                         are not sought{}: the bound is {} s, see --count-seconds",
                         parameter.name,
                         self.reservation,
                         SHARE * self.effort.seconds

@@ -214,7 +214,7 @@ fn function_steps(
 ) -> Option<Vec<FunctionStep>> {
     let mut found: Vec<FunctionStep> = Vec::new();
     let mut has_function = vec![false; graph.len()];
-    for (place, step) in graph.steps().enumerate().filter(|(place, _)| reached[*place]) {
+    for (place, step) in graph.steps_at(reached) {
         has_function[place] = step.arguments().any(|argument| has_function[argument]);
         if let Step::Unary(UnaryFunction::Ln | UnaryFunction::Atan, _) = step {
             return None;

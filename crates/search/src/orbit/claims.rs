@@ -6,7 +6,7 @@ use liouville::verdict::{ClaimReport, Verdict};
 
 use super::super::ask::judged_alone;
 use super::super::integrals::tell;
-use super::super::{Found, SearchError, SearchReport};
+use super::super::{Found, FoundKind, Given, SearchError, SearchReport};
 use super::adjoin;
 use super::setting::OrbitSetting;
 use liouville::case::Case;
@@ -127,24 +127,19 @@ pub fn weighted_integral(
 /// Adds another find to the report if it is proved.
 pub fn other(
     setting: &OrbitSetting<'_>,
-    kind: &'static str,
+    kind: FoundKind,
     formula: &Formula,
     statement: &OrbitStatement,
-    with: Vec<(&'static str, &Formula)>,
+    with: Option<Given>,
     report: &mut SearchReport,
 ) -> Result<bool, SearchError> {
     let Some(found) = proved(setting, statement)? else { return Ok(false) };
     let Some(formula) = written(setting, formula) else { return Ok(false) };
-    let with = with
-        .into_iter()
-        .filter_map(|(what, own)| written(setting, own).map(|formula| (what, formula.to_string())));
-    let with = with.collect();
-    let text = formula.to_string();
-    if report.found.iter().any(|own| own.kind == kind && own.formula == text) {
+    let with = with.and_then(|own| own.mapped(|formula| written(setting, formula)));
+    let found = Found::new(kind, &formula, None, found, &judged_case(setting).model);
+    if report.has(kind, found.text()) {
         return Ok(true);
     }
-    let model = &judged_case(setting).model;
-    let found = Found { with, ..Found::new(kind, &formula, None, found, model) };
-    report.found.push(found);
+    report.found.push(Found { with: with.into_iter().collect(), ..found });
     Ok(true)
 }

@@ -12,7 +12,7 @@ use liouville::number::{BinaryOperation, UnaryFunction};
 
 use super::super::origin::TheoremOrigin;
 use super::super::terms::recorded;
-use super::super::{Effort, Excluded, SearchError, SearchReport};
+use super::super::{Effort, Excluded, FoundKind, Given, SearchError, SearchReport};
 use super::adjoin::{RingPolynomial, polynomial_text};
 use super::angle::ConjugatePair;
 use super::claims::{self, OrbitStatement};
@@ -21,7 +21,7 @@ use super::exponents::ExponentSystem;
 use super::factor::RatedPolynomial;
 use super::known::IndependentIntegrals;
 use super::line::RandomLine;
-use super::part::{DARBOUX, DARBOUX_FAMILY};
+use super::part::{DARBOUX_FAMILY, MOST_DARBOUX_DEGREE};
 use super::setting::OrbitSetting;
 use super::{blocks, degree_of_field, fractions, monomials, no_others};
 
@@ -66,7 +66,7 @@ pub fn search(
     for variables in sets {
         let search = DarbouxSearch { setting: &polynomial, variables: &variables, degree };
         highest = 0;
-        while highest < DARBOUX
+        while highest < MOST_DARBOUX_DEGREE
             && monomials::steps(variables.len(), highest + 1, degree) <= most_steps
         {
             highest += 1;
@@ -166,27 +166,32 @@ impl ClearedField {
         }
         for found in &own.found {
             // Where D is 0 the field has a pole, and nothing is invariant.
-            let rated = match &found.function {
-                Some(function) => RatedPolynomial::of(setting, function, DARBOUX)?,
+            let rated = match found.function() {
+                Some(function) => RatedPolynomial::of(setting, function, MOST_DARBOUX_DEGREE)?,
                 None => None,
             };
             match rated {
                 Some(rated) if line.has_more(&rated, &poles)? => {}
                 _ => continue,
             }
-            let cofactor = found.with.iter().find(|(what, _)| *what == "cofactor");
-            let (Some(function), Some((_, cofactor))) = (&found.function, cofactor) else {
+            let (Some(function), Some(cofactor)) = (found.function(), found.cofactor()) else {
                 continue;
             };
-            let Ok(cofactor) = setting.case.formula(cofactor) else { continue };
             let cofactor = match polynomial_cofactor(setting, function)? {
                 Some(cofactor) => cofactor,
-                None => (&cofactor / &self.denominator)?,
+                None => (cofactor / &self.denominator)?,
             };
             let rate = (&cofactor * function)?;
             let statement = OrbitStatement::Rate { function: function.clone(), rate };
-            let with = vec![("cofactor", &cofactor)];
-            claims::other(setting, "darboux-polynomial", function, &statement, with, report)?;
+            let with = Some(Given::Cofactor(cofactor.clone()));
+            claims::other(
+                setting,
+                FoundKind::DarbouxPolynomial,
+                function,
+                &statement,
+                with,
+                report,
+            )?;
         }
         Ok(())
     }
@@ -229,12 +234,7 @@ pub fn denominators(case: &Case) -> Result<Vec<(Formula, u32)>, SearchError> {
 
 /// Names of the inputs of a recording: components of the free parameters, and of the state.
 pub fn input_names(case: &Case) -> Vec<String> {
-    let model = &case.model;
-    let parameters = model
-        .free_parameters()
-        .flat_map(|own| (0..own.kind.size()).map(|place| own.kind.component(&own.name, place)));
-    let state = (0..model.dimension()).map(|k| model.component_name(k));
-    parameters.chain(state).collect()
+    [case.model.parameter_names(), case.model.state_names()].concat()
 }
 
 /// The cofactor along the field itself, where it is a polynomial of low degree.
@@ -335,7 +335,7 @@ fn degree(own: &RingPolynomial) -> u32 {
 fn fractions_of(graph: &Graph, places: &[usize]) -> Option<Vec<Fraction>> {
     let reached = graph.reached_from(places);
     let mut values: Vec<Option<Fraction>> = vec![None; graph.len()];
-    for (place, step) in graph.steps().enumerate().filter(|(place, _)| reached[*place]) {
+    for (place, step) in graph.steps_at(&reached) {
         let of = |place: usize| values[place].as_ref();
         let made = match step {
             Step::Constant(value) => Fraction::of(RingPolynomial::constant(value.clone())),

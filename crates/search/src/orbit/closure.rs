@@ -14,16 +14,13 @@ use super::super::absence::rank;
 use super::super::ask::{judged_alone, surface};
 use super::super::integrals::claimed_by;
 use super::super::products::Generators;
-use super::super::{Effort, Found, SearchError, SearchReport};
+use super::super::{Effort, Found, FoundKind, Given, SearchError, SearchReport};
 use super::adjoin::{self, FieldComponents, IntegralAlgebra, RingPolynomial, polynomial_text};
 use super::claims::{self, OrbitStatement};
 use super::factor::RatedPolynomial;
 use super::found;
 use super::known::IndependentIntegrals;
 use super::setting::OrbitSetting;
-
-/// Kind of an integral that is a function of others, and no polynomial in them of its degree.
-pub const FURTHER_INTEGRAL: &str = "further-integral";
 
 /// Largest number of integrals that are taken together.
 const MOST_INTEGRALS: usize = 12;
@@ -62,7 +59,7 @@ struct Candidate {
     /// Largest degree and number of terms of one that is a function of those known.
     most: (u32, usize),
     /// Its origin in others, if it is one of theirs.
-    origin: Option<(&'static str, String)>,
+    origin: Option<Given>,
 }
 
 /// Adds brackets of integrals, and derivatives along symmetry fields, to the report.
@@ -72,8 +69,8 @@ pub fn close(case: &Case, effort: &Effort, report: &mut SearchReport) -> Result<
         return Ok(());
     }
     let symmetries: Vec<(String, FieldComponents)> = report
-        .of_case("symmetry-field")
-        .map(|own| (own.formula.clone(), own.fields.clone()))
+        .of_case(FoundKind::SymmetryField)
+        .map(|own| (own.text().to_string(), own.fields.clone()))
         .collect();
     let fields: Vec<&FieldComponents> = symmetries.iter().map(|(_, own)| own).collect();
     let all = [known.as_slice(), &report.dependent].concat();
@@ -155,12 +152,12 @@ impl Closure<'_, '_> {
         let along = |symmetry: usize| {
             let polynomial = self.algebra.along(symmetry, &own.polynomial)?;
             let text = format!("{} of {}", symmetries[symmetry].0, own.text);
-            let origin = Some(("derivative along", text));
+            let origin = Some(Given::DerivativeAlong(text));
             Some(Candidate { polynomial, most: own.size(), origin })
         };
         let bracket = |other: &OwnIntegral| {
             let polynomial = self.algebra.bracket(&other.polynomial, &own.polynomial)?;
-            let origin = Some(("bracket", format!("{{{}, {}}}", other.text, own.text)));
+            let origin = Some(Given::Bracket(format!("{{{}, {}}}", other.text, own.text)));
             let (size, of_other) = (own.size(), other.size());
             let most = (size.0.max(of_other.0), size.1.max(of_other.1));
             Some(Candidate { polynomial, most, origin })
@@ -207,7 +204,7 @@ impl Closure<'_, '_> {
             false => self.tell(&formula, candidate.origin, report)?,
         };
         if is_told {
-            let text = report.found.last().map(|own| own.formula.clone()).unwrap_or_default();
+            let text = report.found.last().map(|own| own.text().to_string()).unwrap_or_default();
             self.all.extend(self.integral(candidate.polynomial, text));
             if is_independent {
                 let all: Vec<usize> = (0..self.setting.dimension()).collect();
@@ -220,7 +217,7 @@ impl Closure<'_, '_> {
     fn tell(
         &self,
         formula: &Formula,
-        origin: Option<(&'static str, String)>,
+        origin: Option<Given>,
         report: &mut SearchReport,
     ) -> Result<bool, SearchError> {
         let Some(formula) = claims::written_integral(self.setting, formula) else {
@@ -230,14 +227,14 @@ impl Closure<'_, '_> {
             return Ok(false);
         }
         let bare = adjoin::merged(formula.text());
-        if report.found.iter().any(|own| adjoin::merged(&own.formula) == bare) {
+        if report.found.iter().any(|own| adjoin::merged(own.text()) == bare) {
             return Ok(false);
         }
         let statement = OrbitStatement::Integral(formula.clone());
         let Some(found) = claims::judged_here(self.setting, &statement)? else { return Ok(false) };
         let case = claims::judged_case(self.setting);
         let known = claimed_by(case, &formula, self.setting.effort, report)?;
-        let found = Found::new(FURTHER_INTEGRAL, &formula, known, found, &case.model);
+        let found = Found::new(FoundKind::FurtherIntegral, &formula, known, found, &case.model);
         report.found.push(Found { with: origin.into_iter().collect(), ..found });
         Ok(true)
     }

@@ -13,7 +13,7 @@ use super::super::ansatz::monomials::power_product;
 use super::super::ansatz::system::PrimePoint;
 use super::super::echelon::Echelon;
 use super::super::terms::sum;
-use super::super::{SearchError, SearchReport};
+use super::super::{FoundKind, Given, SearchError, SearchReport};
 use super::adjoin;
 use super::angle::ConjugatePair;
 use super::claims::{self, OrbitStatement};
@@ -23,9 +23,6 @@ use super::known::IndependentIntegrals;
 use super::line::RandomLine;
 use super::monomials::{self, value};
 use super::setting::{ExtendedCase, OrbitSetting, PrimePhasePoint, SPARE_ORDERS};
-
-/// Kind of a find.
-pub const KIND: &str = "darboux-polynomial";
 
 /// Number of primes tried until all special places of a line lie in the field, for polynomials of
 /// degree up to 2, and of higher degree.
@@ -339,9 +336,16 @@ impl DarbouxSearch<'_, '_> {
             let statement = OrbitStatement::Rate { function: formula.clone(), rate };
             let is_adjoined =
                 |origin: ExtendedCase<'_>| origin.extension.exponent(formula).is_some();
-            let with = vec![("cofactor", &cofactor)];
+            let with = Some(Given::Cofactor(cofactor.clone()));
             if !self.setting.origin.is_some_and(is_adjoined)
-                && !claims::other(self.setting, KIND, formula, &statement, with, report)?
+                && !claims::other(
+                    self.setting,
+                    FoundKind::DarbouxPolynomial,
+                    formula,
+                    &statement,
+                    with,
+                    report,
+                )?
             {
                 return Ok(());
             }

@@ -2,12 +2,13 @@
 
 use super::super::ansatz::system::PrimePoint;
 use super::super::terms::{TermSum, is_one};
-use super::super::{SearchError, SearchReport};
+use super::super::{FoundKind, Given, SearchError, SearchReport};
 use super::claims::{self, OrbitStatement};
-use super::exponents::{CONSTANT_RATE, ExponentSystem, RateTerm};
+use super::exponents::{ExponentSystem, RateTerm};
 use super::factor::RatedPolynomial;
 use super::images;
 use super::known::IndependentIntegrals;
+use crate::echelon::nonzero;
 use liouville::formula::Formula;
 use liouville::verdict::Flaw;
 
@@ -42,7 +43,7 @@ impl ExponentSystem<'_, '_> {
         let mut told = 0;
         for vector in self.relations(&at, &all)? {
             self.setting.effort.halt.check()?;
-            let support: Vec<usize> = (0..vector.len()).filter(|k| vector[*k] != 0).collect();
+            let support = nonzero(&vector);
             let is_known = |column: &usize| matches!(self.columns[*column], RateTerm::Known(_));
             let is_driven = support.iter().any(is_known);
             // Integrals that depend on each other have no function.
@@ -64,8 +65,15 @@ impl ExponentSystem<'_, '_> {
                 }
                 let statement =
                     OrbitStatement::Rate { function: function.clone(), rate: rate.clone() };
-                let (setting, with) = (self.setting, vec![("rate", &rate)]);
-                if claims::other(setting, CONSTANT_RATE, &function, &statement, with, report)? {
+                let (setting, with) = (self.setting, Some(Given::Rate(rate.clone())));
+                if claims::other(
+                    setting,
+                    FoundKind::ConstantRate,
+                    &function,
+                    &statement,
+                    with,
+                    report,
+                )? {
                     told += 1;
                     break;
                 }

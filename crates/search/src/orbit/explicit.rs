@@ -3,15 +3,14 @@
 
 use liouville::case::Case;
 use liouville::claim::Claim;
+use liouville::formula::Formula;
 use liouville::verdict::Verdict;
 
 use super::super::ask::judged_alone;
 use super::super::integrals::tell;
 use super::super::report::Excluded;
-use super::super::{Effort, Found, SearchError, SearchReport};
+use super::super::{Effort, Found, FoundKind, Given, SearchError, SearchReport};
 use super::adjoin::ExplicitField;
-use super::darboux;
-use super::exponents::CONSTANT_RATE as RATE;
 
 /// Searches the field of such a system; what is found is judged as a claim about the case.
 pub fn search(
@@ -49,33 +48,32 @@ pub fn take(
     effort: &Effort,
     report: &mut SearchReport,
 ) -> Result<(), SearchError> {
-    let read = |text: &str| case.formula(&back(text)).ok();
-    let Some(formula) = found.function.as_ref().and_then(|own| read(own.text())) else {
-        return Ok(());
-    };
-    let claim = match (found.kind, found.with.as_slice()) {
-        ("integral", []) => Claim::integral(&formula),
-        ("density", []) if report.functions("density").next().is_none() => Claim::density(&formula),
-        (RATE, [(_, rate)]) => match read(rate) {
-            Some(rate) => Claim::rate(&formula, &rate),
-            None => return Ok(()),
-        },
-        (darboux::KIND, [(_, cofactor)]) => match read(cofactor) {
-            Some(cofactor) => Claim::rate(&formula, &(&cofactor * &formula)?),
-            None => return Ok(()),
-        },
+    let read = |own: &Formula| case.formula(&back(own.text())).ok();
+    let Some(formula) = found.function().and_then(read) else { return Ok(()) };
+    let mut with = Vec::new();
+    for own in &found.with {
+        let Some(own) = own.mapped(read) else { return Ok(()) };
+        with.push(own);
+    }
+    let claim = match (found.kind, with.as_slice()) {
+        (FoundKind::Integral, []) => Claim::integral(&formula),
+        (FoundKind::Density, []) if report.functions(FoundKind::Density).next().is_none() => {
+            Claim::density(&formula)
+        }
+        (FoundKind::ConstantRate, [Given::Rate(rate)]) => Claim::rate(&formula, rate),
+        (FoundKind::DarbouxPolynomial, [Given::Cofactor(cofactor)]) => {
+            Claim::rate(&formula, &(cofactor * &formula)?)
+        }
         _ => return Ok(()),
     };
-    let text = formula.to_string();
-    if report.found.iter().any(|own| own.kind == found.kind && own.formula == text) {
+    if report.has(found.kind, formula.text().trim()) {
         return Ok(());
     }
     let judged = judged_alone(case, claim, effort)?;
     let Some(judged) = judged.filter(|own| own.verdict == Verdict::Proved) else { return Ok(()) };
-    if found.kind == "integral" {
+    if found.kind == FoundKind::Integral {
         return tell(case, &formula, judged, effort, report);
     }
-    let with = found.with.iter().map(|(what, own)| (*what, back(own))).collect();
     report
         .found
         .push(Found { with, ..Found::new(found.kind, &formula, None, judged, &case.model) });

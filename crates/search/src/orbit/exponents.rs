@@ -9,9 +9,9 @@ use liouville::graph::Tape;
 
 use super::super::ansatz::system::PrimePoint;
 use super::super::budget::Budget;
-use super::super::echelon::Echelon;
+use super::super::echelon::{Echelon, nonzero};
 use super::super::terms::recorded;
-use super::super::{SearchError, SearchReport};
+use super::super::{FoundKind, Given, SearchError, SearchReport};
 use super::angle::{AngleForm, ConjugatePair};
 use super::claims::{self, OrbitStatement};
 use super::factor::RatedPolynomial;
@@ -26,9 +26,6 @@ use liouville::claim::LevelSubset;
 const MONOMIALS: usize = 60;
 /// Largest degree of g.
 const DEGREE: u32 = 4;
-
-/// Kind of a function Σ α ln f + g whose rate is a constant, or an integral.
-pub const CONSTANT_RATE: &str = "function-of-constant-rate";
 
 /// A term of the logarithmic rate.
 #[derive(Clone, Debug)]
@@ -181,8 +178,8 @@ impl<'s, 'c> ExponentSystem<'s, 'c> {
     ) -> Result<(), SearchError> {
         let variables = self.variables.len();
         let most = self.setting.origin.map_or(variables, |own| own.case.model.dimension());
-        let has_density = report.formulas("density").next().is_some();
-        let has_rate = report.found.iter().any(|own| own.kind == CONSTANT_RATE);
+        let has_density = report.formulas(FoundKind::Density).next().is_some();
+        let has_rate = report.found.iter().any(|own| own.kind == FoundKind::ConstantRate);
         if has_density && has_rate && known.within(self.variables) + 1 >= most {
             return Ok(());
         }
@@ -210,7 +207,7 @@ impl<'s, 'c> ExponentSystem<'s, 'c> {
         let is_whole = self.variables.len() == self.setting.dimension();
         for vector in self.relations(&at, &all)? {
             self.setting.effort.halt.check()?;
-            let support: Vec<usize> = (0..vector.len()).filter(|k| vector[*k] != 0).collect();
+            let support = nonzero(&vector);
             let Some(last) = support.last() else { continue };
             // Without fractions it has been found before.
             if has_quotients && !support.iter().any(is_quotient) {
@@ -226,7 +223,8 @@ impl<'s, 'c> ExponentSystem<'s, 'c> {
                 RateTerm::Constant if self.is_variable(&support) => {}
                 // One that is longer differs from a known one by an integral.
                 RateTerm::Constant if has_quotients => {
-                    let is_told = report.found.iter().any(|own| own.kind == CONSTANT_RATE);
+                    let is_told =
+                        report.found.iter().any(|own| own.kind == FoundKind::ConstantRate);
                     if is_whole && !is_told {
                         self.rate(&support, report)?;
                     }
@@ -308,8 +306,15 @@ impl<'s, 'c> ExponentSystem<'s, 'c> {
         for style in self.styles(support) {
             let Some(function) = self.logarithm(support, &vector, style)? else { continue };
             let statement = OrbitStatement::Rate { function: function.clone(), rate: rate.clone() };
-            let with = vec![("rate", &rate)];
-            if claims::other(self.setting, CONSTANT_RATE, &function, &statement, with, report)? {
+            let with = Some(Given::Rate(rate.clone()));
+            if claims::other(
+                self.setting,
+                FoundKind::ConstantRate,
+                &function,
+                &statement,
+                with,
+                report,
+            )? {
                 break;
             }
         }

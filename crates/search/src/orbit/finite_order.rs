@@ -9,7 +9,7 @@ use liouville::mechanics::{Meaning, System};
 use liouville::verdict::Verdict;
 
 use super::super::ask::judged;
-use super::super::{SearchError, SearchReport};
+use super::super::{FoundKind, SearchError, SearchReport};
 use super::setting::OrbitSetting;
 use super::{claims, map_weighted};
 
@@ -96,8 +96,7 @@ impl Places {
     fn of(case: &Case) -> Option<Self> {
         let mut named = case.clone();
         let (mut variables, mut others) = (Vec::new(), Vec::new());
-        for (k, variable) in case.model.state.iter().enumerate() {
-            let own = case.formula(&variable.name).ok()?;
+        for (k, own) in case.model.state_variables().into_iter().enumerate() {
             let name = format!("otherplace{k}");
             named.define(&name, &own).ok()?;
             others.push(named.formula(&name).ok()?);
@@ -166,7 +165,7 @@ fn sums(
     }
     for function in functions.iter().take(MOST_SUMS) {
         setting.effort.halt.check()?;
-        if report.functions("integral").count() >= most {
+        if report.functions(FoundKind::Integral).count() >= most {
             break;
         }
         let own: Option<Vec<Formula>> =

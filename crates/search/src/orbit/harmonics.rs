@@ -5,6 +5,7 @@
 //! Darboux functions whose cofactor is known. The equations are linear in the coefficients of polynomials A and
 //! B, and solved at random states modulo a prime in whose field i is.
 
+use crate::echelon::nonzero;
 use liouville::case::Case;
 use liouville::formula::{Formula, FormulaError};
 use liouville::number::rational::Rational;
@@ -13,7 +14,7 @@ use super::super::ansatz::coefficients::Ratio;
 use super::super::ansatz::monomials::power_product;
 use super::super::ansatz::system::PrimePoint;
 use super::super::terms::{is_one, recorded};
-use super::super::{Effort, SearchError, SearchReport};
+use super::super::{Effort, FoundKind, SearchError, SearchReport};
 use super::harmonic_rows::{StateRows, TermColumn, columns};
 use super::images::{self, Images};
 use super::known::has_all;
@@ -98,7 +99,7 @@ impl<'s, 'c> HarmonicSearch<'s, 'c> {
         let m = at.modulus;
         let Some(root) = m.root(m.sub(0, m.one())) else { return Ok(()) };
         let Some(rows) = self.rows(&at)? else { return Ok(()) };
-        let before = report.functions("integral").count();
+        let before = report.functions(FoundKind::Integral).count();
         let case = claims::judged_case(self.setting);
         let most = case.model.dimension() - case.model.level.len();
         for phase in self.phases() {
@@ -106,7 +107,7 @@ impl<'s, 'c> HarmonicSearch<'s, 'c> {
             let Some(factor) = phase.factor(&at) else { continue };
             let factor = if phase.is_circular { m.mul(root, factor) } else { factor };
             self.try_phase(&at, &phase, &rows, factor, report)?;
-            let found = report.functions("integral").count() - before;
+            let found = report.functions(FoundKind::Integral).count() - before;
             if known + found + 1 >= most {
                 break;
             }
@@ -167,7 +168,7 @@ impl<'s, 'c> HarmonicSearch<'s, 'c> {
         let mut support: Vec<usize> = Vec::new();
         for column in own {
             let vector = echelon.null_vector(column);
-            support.extend((0..vector.len()).filter(|k| vector[*k] != 0));
+            support.extend(nonzero(&vector));
         }
         support.sort_unstable();
         support.dedup();

@@ -1,5 +1,6 @@
 //! Vectors that are computed anew for each choice of the parameters, within limits.
 
+use crate::echelon::nonzero;
 use std::cell::RefCell;
 
 use liouville::formula::{Formula, FormulaResult};
@@ -142,7 +143,7 @@ pub fn coefficients(source: &dyn Vectors) -> Result<Option<PrimitiveVector>, Sea
         source.halt().check()?;
         return Ok(None);
     };
-    let support: Vec<usize> = (0..vector.len()).filter(|k| vector[*k] != 0).collect();
+    let support = nonzero(&vector);
     let (images, before) = (RefCell::default(), source.taken());
     let roots = source.names().iter().filter(|name| Coordinates::is_root(name)).count();
     let units = || (0..support.len()).rev().take(MOST_UNITS);

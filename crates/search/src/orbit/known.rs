@@ -8,7 +8,7 @@ use super::super::ansatz::system::PrimePoint;
 use super::super::ask::given;
 use super::super::products::degree_in_state;
 use super::super::terms::recorded;
-use super::super::{SearchError, SearchReport};
+use super::super::{FoundKind, SearchError, SearchReport};
 use super::claims::{self, OrbitStatement};
 use super::setting::{OrbitSetting, PrimePhasePoint, run};
 use super::tangents::LocalGradients;
@@ -24,7 +24,7 @@ pub fn has_all(case: &Case, integrals: usize) -> bool {
 
 /// Whether the integrals of a report are all that the case may have.
 pub fn has_told_all(case: &Case, report: &SearchReport) -> bool {
-    has_all(case, report.functions("integral").count())
+    has_all(case, report.functions(FoundKind::Integral).count())
 }
 
 /// An integral with the variables that it may contain.
@@ -68,7 +68,7 @@ impl IndependentIntegrals {
                 known.add(formula, degree, &all);
             }
         }
-        for formula in report.functions("integral") {
+        for formula in report.functions(FoundKind::Integral) {
             known.add(formula.clone(), degree(setting, formula)?, &used(setting, formula)?);
         }
         Ok(known)

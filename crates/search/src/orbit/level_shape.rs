@@ -2,7 +2,7 @@
 
 use super::super::SearchError;
 use super::super::ansatz::system::PrimePoint;
-use super::super::echelon::Echelon;
+use super::super::echelon::{Echelon, nonzero};
 use super::super::streams::SearchStream;
 use super::super::terms::recorded;
 use super::angle::{ConjugatePair, SquareOfRoot};
@@ -78,7 +78,7 @@ fn affine(at: &PrimePoint, all: &[(Vec<u64>, Vec<u64>)], dimension: usize) -> Op
 fn sphere(at: &PrimePoint, all: &[(Vec<u64>, Vec<u64>)]) -> Option<LevelShape> {
     let m = at.modulus;
     let (state, slopes) = all.first()?;
-    let block: Vec<usize> = (0..slopes.len()).filter(|k| slopes[*k] != 0).collect();
+    let block = nonzero(slopes);
     let last = *block.last().filter(|_| block.len() > 1 && slopes.len() == state.len())?;
     let is_zero = state.contains(&0);
     let ratio = (!is_zero).then(|| m.mul(slopes[last], m.inverse(state[last])))?;

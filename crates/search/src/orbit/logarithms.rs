@@ -11,7 +11,7 @@ use liouville::formula::Formula;
 use liouville::number::rational::Rational;
 
 use super::super::integrals::tell_if_proved;
-use super::super::{Effort, SearchError, SearchReport};
+use super::super::{Effort, FoundKind, SearchError, SearchReport};
 use super::adjoin::MonomialMap;
 use super::cleared::input_names;
 use super::known::has_told_all;
@@ -45,7 +45,7 @@ pub fn search(
     if let Ok(setting) = OrbitSetting::of(&map.case, effort)? {
         along_orbits(&setting, &[], &mut own, progress)?;
     }
-    let found = own.functions("integral").map(|own| own.text().to_string());
+    let found = own.functions(FoundKind::Integral).map(|own| own.text().to_string());
     let pairs = map.exponents.as_ref().map(|own| of_eigenvectors(own, map.coefficients()));
     for text in found.chain(pairs.unwrap_or_default()) {
         effort.halt.check()?;

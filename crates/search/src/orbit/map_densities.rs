@@ -18,7 +18,7 @@ use super::super::ask::judged_alone;
 use super::super::echelon::Echelon;
 use super::super::origin::RemarkOrigin;
 use super::super::terms::{one, recorded};
-use super::super::{SearchError, SearchReport};
+use super::super::{FoundKind, SearchError, SearchReport};
 use super::claims::{self, OrbitStatement};
 use super::images::{self, Images};
 use super::map_fractions;
@@ -149,7 +149,7 @@ fn density(
         (_, true) => (one() / &polynomial.bracketed())?,
     };
     let statement = OrbitStatement::Density(density.clone());
-    if !claims::other(setting, "density", &density, &statement, Vec::new(), report)? {
+    if !claims::other(setting, FoundKind::Density, &density, &statement, None, report)? {
         let claim = Claim::density(&density);
         if let Some(judged) = judged_alone(setting.case, claim, setting.effort)? {
             note_unproved(&density, &judged, report);

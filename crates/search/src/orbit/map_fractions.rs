@@ -11,7 +11,7 @@ use super::super::ansatz::coefficients::Ratio;
 use super::super::ansatz::monomials::power_product;
 use super::super::ansatz::system::PrimePoint;
 use super::super::echelon::Echelon;
-use super::super::{SearchError, SearchReport};
+use super::super::{FoundKind, SearchError, SearchReport};
 use super::claims::{self, OrbitStatement};
 use super::images::{self, Images};
 use super::monomials::{self, value};
@@ -139,6 +139,6 @@ impl FractionSearch<'_, '_> {
         let Some(lower) = part(below, above.len())? else { return Ok(false) };
         let density = (upper.bracketed() / &lower.bracketed())?;
         let statement = OrbitStatement::Density(density.clone());
-        claims::other(setting, "density", &density, &statement, Vec::new(), report)
+        claims::other(setting, FoundKind::Density, &density, &statement, None, report)
     }
 }

@@ -4,6 +4,7 @@
 //! for the change of each monomial. Solutions are kept where their gradients at a random point are
 //! independent of those of the known integrals and of each other.
 
+use crate::echelon::nonzero;
 use liouville::graph::Tape;
 
 use super::super::ansatz::note_unwritten;
@@ -40,7 +41,7 @@ pub fn polynomials(
     let Some((point, mut gradients)) = known.gradients(setting, &at)? else { return Ok(false) };
     for vector in vectors {
         setting.effort.halt.check()?;
-        let support: Vec<usize> = (0..vector.len()).filter(|k| vector[*k] != 0).collect();
+        let support = nonzero(&vector);
         let picked: Vec<Vec<u32>> = support.iter().map(|k| monomials[*k].clone()).collect();
         let values: Vec<u64> = support.iter().map(|k| vector[*k]).collect();
         if !gradients.push(&at, combined_gradient(&at, &picked, &values, &point)) {

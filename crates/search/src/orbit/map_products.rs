@@ -21,8 +21,8 @@ use super::super::ask::judged_alone;
 use super::super::integrals::tell_if_proved;
 use super::super::linear::SampledFunctions;
 use super::super::origin::RemarkOrigin;
-use super::super::terms::{Power, multiplied, one, powers, read, recorded, sum};
-use super::super::{Effort, Found, SearchError, SearchReport};
+use super::super::terms::{Power, multiplied, one, powers, recorded, sum};
+use super::super::{Effort, Found, FoundKind, SearchError, SearchReport};
 use super::known::has_told_all;
 use super::map_densities::note_unproved;
 use super::{factors, magnitude, monomials};
@@ -42,18 +42,13 @@ pub fn search(
     progress: &mut dyn FnMut(&str),
 ) -> Result<(), SearchError> {
     let System::Map(images) = &case.model.system else { return Ok(()) };
-    let dimension = case.model.dimension();
-    let has_density = report.formulas("density").next().is_some();
+    let has_density = report.formulas(FoundKind::Density).next().is_some();
     let is_complete = has_told_all(case, report);
     if !case.model.level.is_empty() || (has_density && is_complete) {
         return Ok(());
     }
     progress("products of factors of the map");
-    let names: Vec<String> = (0..dimension).map(|k| case.model.component_name(k)).collect();
-    let state = read(names.iter().map(String::as_str), &case.model.vocabulary);
-    if state.len() < dimension {
-        return Ok(());
-    }
+    let state = case.model.state_formulas()?;
     let factors = offered(case, images, &state, effort)?;
     let terms = terms(&state)?;
     let (graph, rows) = recorded(case, |jet| slopes(jet, &factors, &terms))?;
@@ -201,7 +196,7 @@ impl ProductFind<'_> {
         match found.verdict {
             Verdict::Proved => {
                 report.remarks.retain(|own| own.origin != RemarkOrigin::UnwrittenDensity);
-                let own = Found::new("density", &density, None, found, &self.case.model);
+                let own = Found::new(FoundKind::Density, &density, None, found, &self.case.model);
                 report.found.push(own);
             }
             _ => note_unproved(&density, &found, report),

@@ -3,13 +3,14 @@
 //! (P ρ)∘Φ = P ρ is linear in the coefficients of P: one row for each random point modulo a prime. So the
 //! integrals of Lyness' and Todd's maps are found over x y and x y z.
 
+use crate::echelon::nonzero;
 use liouville::formula::Formula;
 use liouville::graph::Tape;
 
 use super::super::ansatz::note_unwritten;
 use super::super::ansatz::system::PrimePoint;
 use super::super::terms::recorded;
-use super::super::{SearchError, SearchReport};
+use super::super::{FoundKind, SearchError, SearchReport};
 use super::claims;
 use super::known::IndependentIntegrals;
 use super::map_rows::MapRows;
@@ -30,7 +31,7 @@ pub fn search(
     wanted: usize,
     report: &mut SearchReport,
 ) -> Result<(), SearchError> {
-    let densities: Vec<Formula> = report.functions("density").cloned().collect();
+    let densities: Vec<Formula> = report.functions(FoundKind::Density).cloned().collect();
     let variables: Vec<usize> = (0..setting.dimension()).collect();
     if setting.is_on_level() || setting.has_lists() {
         return Ok(());
@@ -47,7 +48,7 @@ pub fn search(
         let search = WeightedSearch { setting, density, tape: &Tape::new(&graph, &tape) };
         for degree in 1..=DEGREE {
             let all = monomials::up_to(&variables, setting.dimension(), degree);
-            if all.len() > MONOMIALS || report.functions("integral").count() >= wanted {
+            if all.len() > MONOMIALS || report.functions(FoundKind::Integral).count() >= wanted {
                 break;
             }
             search.of_degree(&all, report)?;
@@ -75,7 +76,7 @@ impl WeightedSearch<'_, '_> {
         let Some((point, mut gradients)) = known.gradients(setting, &at)? else { return Ok(()) };
         for vector in vectors {
             setting.effort.halt.check()?;
-            let support: Vec<usize> = (0..vector.len()).filter(|k| vector[*k] != 0).collect();
+            let support = nonzero(&vector);
             let picked: Vec<Vec<u32>> = support.iter().map(|k| all[*k].clone()).collect();
             let values: Vec<u64> = support.iter().map(|k| vector[*k]).collect();
             let Some(gradient) = self.gradient(&at, &picked, &values, &point) else { continue };

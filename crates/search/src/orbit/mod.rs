@@ -110,9 +110,7 @@ use liouville::mechanics::System;
 use liouville::verdict::Verdict;
 
 pub use self::adjoin::{joined_terms, merged, parsed, root_steps, roots, signed_terms};
-pub use self::closure::{FURTHER_INTEGRAL, close};
-pub use self::darboux::KIND as DARBOUX;
-pub use self::exponents::CONSTANT_RATE;
+pub use self::closure::close;
 pub use self::harmonics::search as harmonics;
 pub use self::images::coefficients;
 use self::known::{IndependentIntegrals, has_told_all};
@@ -124,7 +122,7 @@ pub use self::report::OrbitReport;
 use self::setting::OrbitSetting;
 pub use self::sparse::sparse as with_few_entries;
 use super::ask::proved_given;
-use super::{Effort, SearchError, SearchReport, branches};
+use super::{Effort, FoundKind, SearchError, SearchReport, branches};
 
 /// Largest number of roots whose signs at all states are compared with those modulo a prime.
 const FEW_ROOTS: usize = 4;
@@ -287,8 +285,8 @@ fn with_functions(
     progress: &mut dyn FnMut(&str),
 ) -> Result<Option<Vec<adjoin::Divided>>, SearchError> {
     let known = found(case, effort, report)?;
-    let curves = report.found.iter().filter(|own| own.kind == darboux::KIND);
-    let curves: Vec<Formula> = curves.filter_map(|own| own.function.clone()).collect();
+    let curves = report.found.iter().filter(|own| own.kind == FoundKind::DarbouxPolynomial);
+    let curves: Vec<Formula> = curves.filter_map(|own| own.function().cloned()).collect();
     let made = adjoin::extended(case, effort, &known, &curves, scope.divided)?;
     let Some(extension) = made else {
         return Ok(None);
@@ -320,8 +318,8 @@ pub fn factors(
 /// Lists the given functions and the integrals found so far, as far as they are proved to be integrals.
 fn found(case: &Case, effort: &Effort, report: &SearchReport) -> Result<Vec<Formula>, SearchError> {
     let given = proved_given(case, effort)?.into_iter();
-    let own = report.of_case("integral").filter(|found| found.verdict == Verdict::Proved);
-    Ok(given.chain(own.filter_map(|found| found.function.clone())).collect())
+    let own = report.of_case(FoundKind::Integral).filter(|found| found.verdict == Verdict::Proved);
+    Ok(given.chain(own.filter_map(|found| found.function().cloned())).collect())
 }
 
 /// Searches the parts of a field, within growing limits: at last those in `next`.

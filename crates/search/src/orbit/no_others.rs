@@ -12,9 +12,8 @@ use liouville::mechanics::{Draw, Phase};
 use liouville::proof::{PolynomialBounds, polynomial_bounds, statement_seed};
 use liouville::verdict::Options;
 
-use super::super::{Effort, SearchError, SearchReport};
+use super::super::{Effort, FoundKind, SearchError, SearchReport};
 use super::claims::{self, OrbitStatement};
-use super::darboux::KIND as DARBOUX;
 use super::factor::RatedPolynomial;
 use super::line::RandomLine;
 use super::monomials;
@@ -67,9 +66,7 @@ pub fn explained(
     denominators: &[(Formula, u32)],
     report: &SearchReport,
 ) -> Result<String, SearchError> {
-    let is_told = |own: &Formula| {
-        report.found.iter().any(|found| found.kind == DARBOUX && found.formula == own.text())
-    };
+    let is_told = |own: &Formula| report.has(FoundKind::DarbouxPolynomial, own.text());
     let (mut integrals, mut poles) = (Vec::new(), Vec::new());
     for own in known.iter().filter(|own| !is_told(own)) {
         let statement = OrbitStatement::Integral(own.clone());

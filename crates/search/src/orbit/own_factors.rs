@@ -9,8 +9,8 @@ use liouville::graph::{Graph, Step};
 use liouville::number::rational::Rational;
 use liouville::number::{BinaryOperation, UnaryFunction};
 
-use super::super::terms::{is_one, recorded};
-use super::super::{SearchError, SearchReport};
+use super::super::terms::{product, recorded};
+use super::super::{FoundKind, Given, SearchError, SearchReport};
 use super::claims::{self, OrbitStatement};
 use super::cleared::{denominators, input_names};
 use super::exponents::ExponentSystem;
@@ -20,7 +20,6 @@ use super::setting::OrbitSetting;
 use super::unbound;
 
 /// Kind of these finds.
-const KIND: &str = "darboux-polynomial";
 /// Longest formula of a step, in bytes.
 const LONGEST: usize = 2000;
 
@@ -40,7 +39,7 @@ pub fn search(
     let first = inputs.len() - setting.dimension();
     let places: Vec<usize> = rates.iter().map(|rate| graph.place(*rate)).collect();
     let is_known = |report: &SearchReport, name: &Formula| {
-        report.found.iter().any(|own| own.kind == KIND && own.formula == name.text())
+        report.has(FoundKind::DarbouxPolynomial, name.text())
     };
     let open: Vec<usize> =
         (0..places.len()).filter(|k| !is_known(report, &setting.terms[*k])).collect();
@@ -58,15 +57,16 @@ pub fn search(
         let Some(Quotient::Other(cofactor)) = quotient else { continue };
         let rate = (cofactor.bracketed() * name)?;
         let statement = OrbitStatement::Rate { function: name.clone(), rate };
-        let with = vec![("cofactor", &cofactor)];
-        is_new |= claims::other(setting, KIND, name, &statement, with, report)?;
+        let with = Some(Given::Cofactor(cofactor.clone()));
+        is_new |=
+            claims::other(setting, FoundKind::DarbouxPolynomial, name, &statement, with, report)?;
     }
     if !is_new {
         return Ok(());
     }
     let mut factors = Vec::new();
-    for found in report.found.iter().filter(|own| own.kind == KIND) {
-        if let Some(function) = &found.function {
+    for found in report.found.iter().filter(|own| own.kind == FoundKind::DarbouxPolynomial) {
+        if let Some(function) = found.function() {
             factors.extend(RatedPolynomial::of(setting, function, 1)?);
         }
     }
@@ -188,7 +188,7 @@ impl<'g> WrittenSteps<'g> {
         let reached = graph.reached_from(places);
         let powers = (0..graph.len()).map(|place| (place, 1)).collect();
         let mut own = Self { graph, all: vec![None; graph.len()], powers };
-        for (place, step) in graph.steps().enumerate().filter(|(place, _)| reached[*place]) {
+        for (place, step) in graph.steps_at(&reached) {
             if let Step::Binary(BinaryOperation::Mul, a, b) = step
                 && own.powers[a].0 == own.powers[b].0
             {
@@ -307,14 +307,6 @@ fn joined(operation: BinaryOperation, a: &Formula, b: &Formula) -> Option<Formul
         BinaryOperation::Sub => Some(a - b),
         BinaryOperation::Mul => Some(product(a, b)),
         BinaryOperation::Pow => None,
-    }
-}
-
-fn product(a: &Formula, b: &Formula) -> FormulaResult {
-    match (is_one(a), is_one(b)) {
-        (true, _) => Ok(b.clone()),
-        (_, true) => Ok(a.clone()),
-        _ => a * b,
     }
 }
 

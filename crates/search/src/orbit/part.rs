@@ -17,7 +17,7 @@ use super::{
 use liouville::formula::Formula;
 
 /// Largest degree of a Darboux polynomial.
-pub const DARBOUX: u32 = 12;
+pub const MOST_DARBOUX_DEGREE: u32 = 12;
 /// Share of the steps on a line that may be taken on a conic.
 const ON_CONICS: f64 = 0.25;
 /// Family of the theorem on Darboux polynomials, before the degree.
@@ -146,7 +146,7 @@ impl VariableSet {
             self.pairs.extend(level_shape::pairs(setting, variables)?);
         }
         let share = if setting.conic.is_some() { ON_CONICS } else { 1.0 };
-        while self.next_darboux <= DARBOUX
+        while self.next_darboux <= MOST_DARBOUX_DEGREE
             && monomials::steps(count, self.next_darboux, degree) <= share * limits.steps
         {
             progress(&format!("Darboux polynomials of degree {}", self.next_darboux));

@@ -15,6 +15,7 @@ use super::images;
 use super::known::IndependentIntegrals;
 use super::setting::OrbitSetting;
 use super::sparse::sparse;
+use crate::echelon::nonzero;
 use liouville::formula::Formula;
 
 /// Largest degree of integrals that are sought although they are functions of those known.
@@ -74,7 +75,7 @@ pub fn polynomials(
     let mut is_unwritten = false;
     for vector in new {
         effort.halt.check()?;
-        let support: Vec<usize> = (0..vector.len()).filter(|k| vector[*k] != 0).collect();
+        let support = nonzero(&vector);
         let Some(coefficients) =
             images::coefficients(&NullVector { system: &system, columns: &support })?
         else {

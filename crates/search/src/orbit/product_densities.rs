@@ -6,6 +6,7 @@ use super::super::ansatz::system::PrimePoint;
 use super::claims::{self, OrbitStatement};
 use super::exponents::{ExponentSystem, RateTerm};
 use super::images::{self, Images};
+use crate::FoundKind;
 
 /// Number of further choices of the parameters for exponents that are numbers.
 const CHOICES: u64 = 3;
@@ -45,7 +46,7 @@ impl ExponentSystem<'_, '_> {
 
     /// Tells the density of a null vector, or one with numbers as exponents.
     pub fn density(&self, support: &[usize], report: &mut SearchReport) -> Result<(), SearchError> {
-        if report.formulas("density").next().is_some() {
+        if report.formulas(FoundKind::Density).next().is_some() {
             return Ok(());
         }
         let numeric = self.numeric_density()?;
@@ -59,8 +60,8 @@ impl ExponentSystem<'_, '_> {
         for style in self.styles(support) {
             let Some(formula) = self.product(support, vector, style)? else { continue };
             let statement = OrbitStatement::Density(formula.clone());
-            let (setting, none) = (self.setting, Vec::new());
-            if claims::other(setting, "density", &formula, &statement, none, report)? {
+            let setting = self.setting;
+            if claims::other(setting, FoundKind::Density, &formula, &statement, None, report)? {
                 break;
             }
         }

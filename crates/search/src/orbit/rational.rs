@@ -10,7 +10,7 @@ use liouville::proof::reduce;
 
 use super::super::ansatz::note_unwritten;
 use super::super::ansatz::system::PrimePoint;
-use super::super::echelon::Echelon;
+use super::super::echelon::{Echelon, nonzero};
 use super::super::{SearchError, SearchReport};
 use super::fraction::MonomialFraction;
 use super::images::{self, Images};
@@ -63,7 +63,7 @@ impl RationalSearch<'_, '_> {
                 if degree < self.degree || first.free.iter().any(divides) {
                     continue;
                 }
-                let support: Vec<usize> = (0..vector.len()).filter(|k| vector[*k] != 0).collect();
+                let support = nonzero(vector);
                 let one = LeadingRelations { of: self, support: self.picked(&support) };
                 found |= one.search(at, interpolated, known, report)?;
             }
@@ -150,7 +150,7 @@ impl LeadingRelations<'_, '_, '_> {
         known: &mut IndependentIntegrals,
         report: &mut SearchReport,
     ) -> Result<bool, SearchError> {
-        let used = |row: &Vec<u64>| (0..row.len()).filter(|k| row[*k] != 0).collect::<Vec<_>>();
+        let used = |row: &Vec<u64>| nonzero(row);
         // The shorter polynomial is the denominator.
         let (upper, lower) =
             if used(&span[0]).len() < used(&span[1]).len() { (1, 0) } else { (0, 1) };

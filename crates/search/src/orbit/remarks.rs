@@ -9,7 +9,7 @@ const OF_LISTS: &str = "an integral is written only if one formula holds for all
     parameters: give one value of each list, as with --set a=1";
 /// Remark where the steps for coefficients that depend on the parameters are spent.
 const OF_STEPS: &str = "coefficients that depend on the parameters, or are no fractions, are not all \
-    sought: that takes longer than a quarter of --seconds; give values with --set, or more time";
+    sought: that takes longer than a quarter of --count-seconds; give values with --set, or more time";
 
 /// Notes that steps are spent, that relations are counted for the first of listed values, and that
 /// integrals counted there are not written.

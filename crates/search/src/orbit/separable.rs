@@ -3,6 +3,7 @@
 //! If H separates, an integral is Σ (c_a + d_a H + …) xᵃ in one coordinate, its momentum, and their functions
 //! alone: in these few variables the degree may be higher than in all of them.
 
+use crate::echelon::nonzero;
 use liouville::formula::Formula;
 use liouville::mechanics::{BracketBlock, System};
 
@@ -174,7 +175,7 @@ impl CoordinateSearch<'_, '_> {
         let mut found = Vec::new();
         for vector in new {
             effort.halt.check()?;
-            let support: Vec<usize> = (0..vector.len()).filter(|k| vector[*k] != 0).collect();
+            let support = nonzero(&vector);
             let read = images::coefficients(&NullVector { system: &system, columns: &support })?;
             let Some(coefficients) = read else {
                 let what = format!("an integral with {} terms in one coordinate", support.len());

@@ -13,7 +13,7 @@ use super::super::ansatz::system::PrimePoint;
 use super::super::echelon::Echelon;
 use super::super::local::{random, sign};
 use super::super::streams::SearchStream;
-use super::super::terms::{read, recorded};
+use super::super::terms::recorded;
 use super::super::{Effort, SearchError};
 use super::adjoin::Extension;
 use super::conic::ConicShape;
@@ -122,11 +122,7 @@ impl<'c> OrbitSetting<'c> {
                 "the {what} has no values modulo a prime, as it contains {functions}"
             )));
         };
-        let names: Vec<String> = (0..model.dimension()).map(|k| model.component_name(k)).collect();
-        let terms = read(names.iter().map(String::as_str), &model.vocabulary);
-        if terms.len() < model.dimension() {
-            return Ok(Err("the components of the state have no names".to_string()));
-        }
+        let terms = model.state_formulas()?;
         let sampler = Sampler::new(case, &LevelSubset::level(model), effort.options.seed)?;
         if sampler.is_numerical() {
             return Ok(Err(SearchError::NoChart.to_string()));

@@ -3,14 +3,13 @@
 //! Of a sleigh with its positions, the heading and the velocities form such a part: their rates contain no
 //! sine. What is found for them is judged as a claim about the whole case.
 
-use std::fmt::Write;
-
 use liouville::case::Case;
 use liouville::formula::Type;
-use liouville::mechanics::{ParameterOrigin, SamplerSpec, System};
+use liouville::mechanics::{Meaning, Model, SamplerSpec, System};
 
 use super::super::terms::recorded;
 use super::super::{Effort, SearchError, SearchReport};
+use super::adjoin::with_parameters;
 use super::{blocks, explicit};
 
 /// Searches the largest closed set of variables whose rates are rational, unless these are all.
@@ -21,7 +20,14 @@ pub fn search(
     report: &mut SearchReport,
     progress: &mut dyn FnMut(&str),
 ) -> Result<(), SearchError> {
-    let Some(part) = rational_part(case)? else { return Ok(()) };
+    let part = match rational_part(case) {
+        Err(SearchError::Unbuilt(error)) => {
+            report.remark(format!("variables with rational rates are not searched alone: {error}"));
+            return Ok(());
+        }
+        other => other?,
+    };
+    let Some(part) = part else { return Ok(()) };
     let mut own = SearchReport::default();
     super::search(&part, effort, further, &mut own, progress)?;
     for found in &own.found {
@@ -52,20 +58,40 @@ fn rational_part(case: &Case) -> Result<Option<Case>, SearchError> {
     if part.len() < 2 || part.len() == model.dimension() {
         return Ok(None);
     }
-    let mut text = "title = \"part\"\nsystem = \"field\"\n[parameters]\n".to_string();
-    for own in model.free_parameters() {
-        let ParameterOrigin::Free(recipe) = &own.origin else { return Ok(None) };
-        let _ = writeln!(text, "\"{}\" = \"{}\"", own.name, recipe.text());
-    }
-    text.push_str("[state]\n");
+    let mut own = with_parameters(Model::field().title("part"), model);
     for k in &part {
         let Some(draw) = case.free_draws.get(*k) else { return Ok(None) };
-        let range = SamplerSpec::Scalar(draw.clone()).text();
-        let _ = writeln!(text, "\"{}\" = \"{range}\"", model.state[*k].name);
+        own = own.variable(&model.state[*k].name, SamplerSpec::Scalar(draw.clone()));
     }
-    text.push_str("[field]\n");
-    for k in part.iter().filter(|k| model.state[**k].name != "t") {
-        let _ = writeln!(text, "\"{}'\" = \"{}\"", model.state[*k].name, field[*k].text());
+    // Some of what the file defines may contain other variables.
+    for (_, entry) in model.vocabulary.iter() {
+        if let Meaning::Abbreviation(place) = entry.meaning
+            && let Some(formula) = model.abbreviations.get(place)
+            && own.formula(formula.text()).is_ok()
+        {
+            own = own.define(&entry.name, formula.text());
+        }
     }
-    Ok(Case::parse(&text, &[]).ok())
+    for k in &part {
+        own = own.rate(&model.state[*k].name, field[*k].text());
+    }
+    own.build().map(Some).map_err(SearchError::Unbuilt)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn definitions_of_a_file_are_taken_over() {
+        // s stands in the rates of x and y, and f in none of theirs.
+        let text = "title = 'x'\n[parameters]\na = '1..2'\n[let]\ns = 'x + a*y'\nf = 'exp(x*z)'\n[state]\n\
+                    x = '1..2'\ny = '1..2'\nz = '1..2'\n[field]\nx = 'x*s'\ny = '-y*s'\nz = 'f + s'\n";
+        let case = Case::parse(text, &[]).expect("a case");
+        let part = rational_part(&case).expect("recorded").expect("x and y");
+        assert_eq!(part.model.state_names(), ["x", "y"]);
+        let System::Field(rates) = &part.model.system else { panic!("a field") };
+        assert_eq!([rates[0].text(), rates[1].text()], ["x*s", "-y*s"]);
+        assert!(part.formula("s").is_ok() && part.formula("f").is_err(), "f contains z");
+    }
 }

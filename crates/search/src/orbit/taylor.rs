@@ -108,7 +108,7 @@ impl Flow {
         let mut varies = vec![false; graph.len()];
         let mut at = vec![0; graph.len()];
         let (mut steps, mut steps_vary) = (Vec::new(), Vec::new());
-        for (place, step) in graph.steps().enumerate().filter(|(place, _)| reached[*place]) {
+        for (place, step) in graph.steps_at(reached) {
             varies[place] = match step {
                 Step::Input(input) => input >= parameters,
                 _ => step.arguments().any(|argument| varies[argument]),

@@ -5,11 +5,11 @@
 //! this holds only where the relations hold are not found. Where the relations are sin² + cos² = 1 and
 //! e^u e^(−u) = 1 alone, conics on the level take the place of lines, and these are found too.
 
-use super::super::{SearchError, SearchReport};
+use super::super::{FoundKind, Given, SearchError, SearchReport};
 use super::claims::{self, OrbitStatement};
 use super::darboux::DarbouxSearch;
 use super::factor::RatedPolynomial;
-use super::part::DARBOUX;
+use super::part::MOST_DARBOUX_DEGREE;
 use super::setting::{ExtendedCase, OrbitSetting};
 use super::{RoundLimits, blocks, degree_of_field, monomials};
 
@@ -30,7 +30,7 @@ pub fn search(
     progress: &mut dyn FnMut(&str),
 ) -> Result<(), SearchError> {
     let Some(ExtendedCase { extension, .. }) = setting.origin else { return Ok(()) };
-    let Some(case) = extension.unbound() else { return Ok(()) };
+    let Some(case) = extension.unbound()? else { return Ok(()) };
     let Ok(unbound) = OrbitSetting::of(&case, setting.effort)? else { return Ok(()) };
     let Some(degree) = degree_of_field(&unbound)? else { return Ok(()) };
     if setting.conic.is_some() {
@@ -45,21 +45,16 @@ pub fn search(
         let search = DarbouxSearch { setting: &unbound, variables: &variables, degree };
         let fits =
             |next: &u32| monomials::steps(variables.len(), *next, degree) <= SHARE * limits.steps;
-        for next in (1..=DARBOUX).take_while(fits) {
+        for next in (1..=MOST_DARBOUX_DEGREE).take_while(fits) {
             progress(&format!("Darboux polynomials of degree {next}, with functions as variables"));
             search.of_degree(next, &mut all, &mut pairs, &mut own)?;
         }
     }
     for found in &own.found {
-        let Some(cofactor) = found.with.iter().find(|(what, _)| *what == "cofactor") else {
-            continue;
-        };
-        let (Ok(formula), Ok(cofactor)) =
-            (setting.case.formula(&found.formula), setting.case.formula(&cofactor.1))
-        else {
-            continue;
-        };
-        let degree = all.iter().find(|own| own.formula.text() == found.formula);
+        let (Some(own), Some(cofactor)) = (found.function(), found.cofactor()) else { continue };
+        let [formula, cofactor] = [own, cofactor].map(|own| setting.case.formula(own.text()));
+        let (Ok(formula), Ok(cofactor)) = (formula, cofactor) else { continue };
+        let degree = all.iter().find(|own| own.formula.text() == found.text());
         let degree = degree.map_or(1, |own| own.degree);
         let Some(rated) = RatedPolynomial::of(setting, &formula, degree)? else { continue };
         if extension.has_inverse(&formula) || !changes(setting, &rated) {
@@ -68,8 +63,8 @@ pub fn search(
         if extension.exponent(&formula).is_none() {
             let rate = (cofactor.bracketed() * &formula.bracketed())?;
             let statement = OrbitStatement::Rate { function: formula.clone(), rate };
-            let with = vec![("cofactor", &cofactor)];
-            let kind = "darboux-polynomial";
+            let with = Some(Given::Cofactor(cofactor.clone()));
+            let kind = FoundKind::DarbouxPolynomial;
             if !claims::other(setting, kind, &formula, &statement, with, report)? {
                 continue;
             }
@@ -103,7 +98,7 @@ fn on_conics(
         // A polynomial has twice as many zeros on a conic.
         let fits =
             |next: &u32| monomials::steps_of(count(*next), *next, degree) <= SHARE * limits.steps;
-        for next in (1..=DARBOUX).take_while(fits) {
+        for next in (1..=MOST_DARBOUX_DEGREE).take_while(fits) {
             progress(&format!("Darboux polynomials of degree {next}, with functions as variables"));
             search.of_degree(next, &mut all, &mut pairs, report)?;
         }

@@ -11,7 +11,7 @@ use super::super::ansatz::monomials::power_product;
 use super::super::ansatz::system::PrimePoint;
 use super::super::echelon::Echelon;
 use super::super::terms::is_one;
-use super::super::{SearchError, SearchReport};
+use super::super::{FoundKind, SearchError, SearchReport};
 use super::claims;
 use super::exponents::divergence;
 use super::images::{self, Images};
@@ -29,10 +29,10 @@ const DEGREE: u32 = 8;
 pub fn search(setting: &OrbitSetting<'_>, report: &mut SearchReport) -> Result<(), SearchError> {
     let dimension =
         setting.origin.map_or(setting.dimension(), |origin| origin.case.model.dimension());
-    if dimension != 2 || report.formulas("integral").next().is_some() {
+    if dimension != 2 || report.formulas(FoundKind::Integral).next().is_some() {
         return Ok(());
     }
-    let density = report.functions("density").find(|own| !is_one(own)).cloned();
+    let density = report.functions(FoundKind::Density).find(|own| !is_one(own)).cloned();
     let (Some(density), Some(at)) = (density, setting.at(0, 0)) else { return Ok(()) };
     let rates = WeightedRates { setting, divergence: divergence(setting)? };
     let variables: Vec<usize> = (0..setting.dimension()).collect();

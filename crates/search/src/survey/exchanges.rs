@@ -253,21 +253,10 @@ fn permutations(count: usize) -> Vec<Vec<usize>> {
 /// A map as a claim: its images by variable, and a name.
 fn candidate(case: &Case, own: &Exchange) -> Option<MapCandidate> {
     let model = &case.model;
-    let scope = &model.vocabulary;
-    // Components in the order of the state.
-    let mut components: Vec<Formula> = Vec::new();
-    for variable in &model.state {
-        let whole = case.formula(&variable.name).ok()?;
-        match variable.kind {
-            Type::Scalar => components.push(whole),
-            Type::Vector(length) => {
-                for k in 1..=length {
-                    components.push(whole.element(k, scope).ok()?);
-                }
-            }
-            Type::Matrix(..) => return None,
-        }
+    if model.state.iter().any(|variable| matches!(variable.kind, Type::Matrix(..))) {
+        return None;
     }
+    let components = model.state_formulas().ok()?;
     let (mut images, mut changed, mut start) = (Vec::new(), Vec::new(), 0);
     for variable in &model.state {
         let places = start..start + variable.len();

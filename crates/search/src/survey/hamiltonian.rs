@@ -33,7 +33,12 @@ pub fn form(
     let (mut names, formulas) = merged(bindings, &[density]);
     let mut add = |name: &str, formula: String| names.push(define(name, &formula));
     let volume = if body.0.curvature.is_some() { "*D_T" } else { "" };
-    add("N", format!("({})/(det(Ĩ)*(γ,Ĩ⁻¹*γ){volume})", formulas[0]));
+    let standard = format!("det(Ĩ)*(γ,Ĩ⁻¹*γ){volume}");
+    let multiplier = match formulas[0] == standard {
+        true => "1".to_string(),
+        false => format!("({})/({standard})", formulas[0]),
+    };
+    add("N", multiplier);
     let energy = match body.0.curvature {
         None => {
             // The last term vanishes on the level; with it M and γ are coordinates off the level

@@ -11,7 +11,7 @@ use super::definitions::{Definition, define, defined, distinct, used_by};
 use super::family::SystemFamily;
 use super::shown::{Shown, Typesetter};
 use liouville::case::Case;
-use liouville::claim::{Claim, ClaimEntry, Statement, SymmetryField};
+use liouville::claim::{Claim, ClaimEntry, Rate, Statement, SymmetryField};
 use liouville::mechanics::{Meaning, TIME};
 use liouville::verdict::{
     ClaimReport, DensitySign, Flaw, Independence, JudgeError, Options, Verdict, judge,
@@ -333,7 +333,7 @@ impl SurveyQuestion {
             ("", own) => own.to_string(),
             (source, own) => format!("{source}, {own}"),
         };
-        let is_rate = claim.kind == "rate";
+        let is_rate = claim.kind == Rate::NAME;
         let used = images.iter().map(|image| image.formula.as_str());
         let function = images.iter().map(|image| image.name.as_str()).filter(|_| is_rate);
         let formula = claim.formula.as_deref().filter(|_| images.is_empty());

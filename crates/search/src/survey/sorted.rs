@@ -2,7 +2,7 @@
 
 use super::hierarchy::MeasureStatus;
 use super::question::TestedClaim;
-use crate::orbit::{CONSTANT_RATE, DARBOUX};
+use crate::FoundKind;
 use liouville::case::Case;
 use liouville::verdict::Verdict;
 
@@ -55,8 +55,8 @@ impl Sorted {
                 "integral" => &mut sorted.general,
                 "symmetry-field" => &mut sorted.fields,
                 "rate" => &mut sorted.rates,
-                DARBOUX => &mut sorted.surfaces,
-                CONSTANT_RATE => &mut sorted.drifts,
+                kind if kind == FoundKind::DarbouxPolynomial.name() => &mut sorted.surfaces,
+                kind if kind == FoundKind::ConstantRate.name() => &mut sorted.drifts,
                 _ => continue,
             };
             place.push(tested);

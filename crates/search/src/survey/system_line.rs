@@ -111,6 +111,14 @@ fn decimal(value: &Rational) -> String {
     value.to_string()
 }
 
+/// A value by its components: a vector as (a, b, c), a matrix as case files write it.
+pub fn in_words(kind: Type, components: &[String]) -> String {
+    match kind {
+        Type::Matrix(..) => kind.as_setting(components),
+        _ => kind.listed(components, ["(", ", ", ")"]),
+    }
+}
+
 /// Parameters with what the case says of each.
 pub fn parameters(case: &Case) -> Vec<SystemLine> {
     let own = case.model.parameters.iter().filter(|parameter| !parameter.name.contains('['));
@@ -132,7 +140,7 @@ pub fn parameters(case: &Case) -> Vec<SystemLine> {
                     }
                 };
                 let is_list = matches!(parameter.kind, Type::Scalar | Type::Vector(_));
-                let text = parameter.kind.listed(&values, ["(", ", ", ")"]);
+                let text = in_words(parameter.kind, &values);
                 ("=", text, Some(set).filter(|_| is_list))
             }
             ParameterOrigin::Formula(formula) => {

@@ -4,18 +4,15 @@ use serde::Serialize;
 
 use super::definitions::define;
 use super::question::TestedClaim;
-use crate::{CountReport, Effort, Excluded, Found, Halt, search};
+use crate::{CountReport, Effort, Excluded, Found, FoundKind, Given, Halt, search};
 use liouville::case::Case;
 use liouville::case::Expect;
-use liouville::claim::Claim;
+use liouville::claim::{Claim, ClaimKind};
 use liouville::mechanics::System;
 use liouville::verdict::{ClaimReport, Options, Verdict};
 
 /// Degree in the velocities up to which integrals are counted: a fraction of a second.
 const DEGREE: u32 = 4;
-
-/// Key of a find for a listed value of a parameter.
-const VALUE: &str = "value";
 
 /// Time in seconds above which a count is left out.
 const SECONDS: f64 = 2.0;
@@ -50,7 +47,7 @@ impl SearchOutcome {
             case.model.system,
             System::Lagrangian(_) | System::Hamiltonian(_) | System::Field(_) | System::Map(_)
         );
-        let is_new = |one: &Found| !one.trivial && (!is_body || one.kind != "symmetry-field");
+        let is_new = |one: &Found| !is_body || one.kind != FoundKind::SymmetryField;
         match search(case, &effort, progress) {
             Ok(report) => Self {
                 counts: report.counts,
@@ -87,13 +84,13 @@ const OF_SEARCH: &str = "found by the search";
 
 /// Whether a density of the search is proved to be one that the case claims, up to a factor.
 pub fn is_claimed_density(case: &Case, options: &Options, found: &ClaimReport) -> bool {
-    if found.kind != "density" || found.source != OF_SEARCH {
+    if found.kind != FoundKind::Density.name() || found.source != OF_SEARCH {
         return false;
     }
     let Some(own) = found.formula.as_ref().and_then(|text| case.formula(text).ok()) else {
         return false;
     };
-    let claimed = case.claims.iter().filter(|claim| claim.kind.name() == "density");
+    let claimed = case.claims.iter().filter(|claim| matches!(claim.kind, ClaimKind::Density(_)));
     claimed.filter_map(|claim| claim.kind.formula()).any(|other| {
         // They are the same up to a factor where their quotient is constant.
         let Ok(quotient) = &own.bracketed() / &other.bracketed() else { return false };
@@ -107,9 +104,9 @@ pub fn of_search(case: &Case, found: Found) -> TestedClaim {
     let names = found.abbreviations.iter().map(|(name, text)| define(name, text)).collect();
     let field: Vec<_> = found.fields.iter().map(|(name, own)| define(name, own.text())).collect();
     let claim = ClaimReport {
-        name: found.kind.replace('-', " "),
-        formula: Some(found.formula),
-        kind: found.kind,
+        name: found.kind.name().replace('-', " "),
+        formula: Some(found.text().to_string()),
+        kind: found.kind.name(),
         source: OF_SEARCH.to_string(),
         place: "level".to_string(),
         expect: Expect::Open,
@@ -119,15 +116,17 @@ pub fn of_search(case: &Case, found: Found) -> TestedClaim {
         note: None,
         evidence: found.evidence,
     };
-    let is_value = |(what, _): &&(&'static str, String)| *what == VALUE;
-    let values = found.with.iter().find(is_value).map(|(_, text)| text.clone());
-    let with = found.with.iter().map(|(what, text)| format!("with the {what} {text}"));
+    let values = found.with.iter().find_map(|own| match own {
+        Given::Value(values) => Some(values.clone()),
+        _ => None,
+    });
+    let with = found.with.iter().map(|own| format!("with the {} {}", own.name(), own.text()));
     let with: Vec<String> = with.collect();
     let remark = (!with.is_empty()).then(|| with.join("; "));
     let tested = TestedClaim { values, remark, ..TestedClaim::found(case, claim, names) };
-    let rate = found.with.iter().find(|(what, _)| matches!(*what, "rate" | "cofactor"));
+    let rate = found.with.iter().find(|own| matches!(own, Given::Rate(_) | Given::Cofactor(_)));
     match rate {
-        Some((what, rate)) => tested.with_rate(case, what, rate),
+        Some(rate) => tested.with_rate(case, rate.name(), rate.text()),
         None if field.is_empty() => tested,
         None => tested.with_field(case, &field),
     }

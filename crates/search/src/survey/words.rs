@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::geometry::GeometryFact;
+use super::system_line::in_words;
 use liouville::case::Case;
 use liouville::claim::may_have_kinks;
 use liouville::mechanics::{ParameterOrigin, System};
@@ -100,7 +101,7 @@ pub fn parameters(case: &Case) -> Vec<GivenParameter> {
         value: match &parameter.origin {
             ParameterOrigin::Fixed(values) => {
                 let values: Vec<String> = values.iter().map(ToString::to_string).collect();
-                Some(parameter.kind.listed(&values, ["(", ", ", ")"]))
+                Some(in_words(parameter.kind, &values))
             }
             ParameterOrigin::Formula(formula) => Some(formula.text().to_string()),
             ParameterOrigin::Free(_) => None,

@@ -3,6 +3,7 @@
 //! With the masses M = ∂²T/∂w², constraints f and A = ∂f/∂w let B = det [[M, Aᵀ], [A, 0]]. Along the constraints
 //! dq dp is |B|/√det(AAᵀ) times the volume of the level; where A has constant length, |B| times it.
 
+use crate::terms::is_one;
 use liouville::case::Case;
 use liouville::formula::Formula;
 use liouville::mechanics::{System, VariableRole};
@@ -69,13 +70,15 @@ fn made(case: &Case) -> Option<Vec<Formula>> {
     let density = writer::written(&mut reader, &density, Constants::Left)?.text;
     let gram = determinant(&products)?;
     let gram = writer::written(&mut reader, &gram, Constants::Left)?.text;
-    let along = match gram == density {
-        true => format!("√({gram})"),
-        false => format!("({density})/√({gram})"),
-    };
-    let texts = [density.clone(), along];
-    let count = if gram == "1" { 1 } else { 2 };
-    Some(texts[..count].iter().filter_map(|text| case.formula(text).ok()).collect())
+    let is_same = gram == density;
+    let [density, gram] = [density, gram].map(|text| case.formula(&text).ok());
+    let (density, gram) = (density?, gram?);
+    if is_one(&gram) {
+        return Some(vec![density]);
+    }
+    let root = gram.bracketed().sqrt().ok()?;
+    let along = if is_same { root } else { (density.bracketed() / &root).ok()? };
+    Some(vec![density, along])
 }
 
 /// The derivative by a variable that the denominator does not contain.

@@ -39,8 +39,7 @@ use liouville::verdict::Verdict;
 
 use super::ask::judged_alone;
 use super::leading::replaced;
-use super::orbit::{CONSTANT_RATE, DARBOUX, FURTHER_INTEGRAL};
-use super::{Effort, Found, SearchError, SearchReport};
+use super::{Effort, Found, FoundFormula, FoundKind, Given, SearchError, SearchReport};
 use fraction::Fraction;
 pub use masses::densities as mass_densities;
 use reader::Reader;
@@ -60,19 +59,19 @@ pub fn shorten(case: &Case, effort: &Effort, report: &mut SearchReport) -> Resul
         }
         let Some(changed) = changed(&mut reader, effort, report, place)? else { continue };
         let before = std::mem::replace(&mut report.found[place], changed);
-        let after = report.found[place].formula.clone();
+        let after = report.found[place].text();
         for own in &mut report.excluded {
-            own.theorem = replaced(&own.theorem, &before.formula, &after);
-            own.ansatz = replaced(&own.ansatz, &before.formula, &after);
+            own.theorem = replaced(&own.theorem, before.text(), after);
+            own.ansatz = replaced(&own.ansatz, before.text(), after);
         }
-        if !after.contains(&before.formula) && before.kind == "integral" {
-            spoiled.push(before.formula);
+        if !after.contains(before.text()) && before.kind == FoundKind::Integral {
+            spoiled.push(before.text().to_string());
         }
     }
     // P is one of P + cQ, of which another has the factors.
     let is_spoiled = |own: &Found| {
-        own.kind == DARBOUX
-            && spoiled.iter().any(|text| text.starts_with(&format!("({})/", own.formula)))
+        own.kind == FoundKind::DarbouxPolynomial
+            && spoiled.iter().any(|text| text.starts_with(&format!("({})/", own.text())))
     };
     report.found.retain(|own| !is_spoiled(own));
     Ok(())
@@ -89,9 +88,12 @@ pub fn shortest(case: &Case, formula: &Formula) -> Option<Formula> {
 
 /// Darboux polynomials of a report, which may be factors.
 fn darboux_polynomials(reader: &mut Reader<'_>, report: &SearchReport) -> Vec<Polynomial> {
-    let own = report.found.iter().filter(|own| own.kind == DARBOUX && own.abbreviations.is_empty());
-    own.filter(|own| own.formula.len() <= LONGEST)
-        .filter_map(|own| reader.read(&own.formula))
+    let own = report
+        .found
+        .iter()
+        .filter(|own| own.kind == FoundKind::DarbouxPolynomial && own.abbreviations.is_empty());
+    own.filter(|own| own.text().len() <= LONGEST)
+        .filter_map(|own| reader.read(own.text()))
         .filter(|own| own.is_polynomial() && own.above.number().is_none())
         .map(|own| own.above)
         .collect()
@@ -121,19 +123,19 @@ fn without_integrals(
     place: usize,
 ) -> Result<Option<Found>, SearchError> {
     let own = &report.found[place];
-    let [("rate", rate)] = own.with.as_slice() else { return Ok(None) };
-    let is_plain = own.kind == CONSTANT_RATE && own.abbreviations.is_empty();
-    if !is_plain || own.formula.len() > LONGEST {
+    let [Given::Rate(rate)] = own.with.as_slice() else { return Ok(None) };
+    let is_plain = own.kind == FoundKind::ConstantRate && own.abbreviations.is_empty();
+    if !is_plain || own.text().len() > LONGEST {
         return Ok(None);
     }
-    let (Some(function), Some(rate)) = (reader.read(&own.formula), reader.read(rate)) else {
+    let (Some(function), Some(rate)) = (reader.read(own.text()), reader.read(rate.text().trim()))
+    else {
         return Ok(None);
     };
-    let integrals = report.found.iter().filter(|found| {
-        found.kind == "integral" && found.with.is_empty() && found.abbreviations.is_empty()
-    });
-    for integral in integrals.filter(|found| found.formula.len() <= LONGEST) {
-        let Some(divisor) = reader.read(&integral.formula) else { continue };
+    let integrals =
+        report.found.iter().filter(|found| found.is_integral() && found.abbreviations.is_empty());
+    for integral in integrals.filter(|found| found.text().len() <= LONGEST) {
+        let Some(divisor) = reader.read(integral.text()) else { continue };
         let work = &mut { MOST_POLYNOMIAL_WORK };
         let divides = function.above.over(&divisor.above, work).is_some();
         if !divides || !divisor.is_polynomial() || divisor.above.number().is_some() {
@@ -151,8 +153,8 @@ fn without_integrals(
         let Some((function, rate)) = formulas else { continue };
         let judged = judged_alone(case, Claim::rate(&function, &rate), effort)?;
         if let Some(judged) = judged.filter(|own| own.verdict == Verdict::Proved) {
-            let with = vec![("rate", rate.to_string())];
-            let found = Found::new(CONSTANT_RATE, &function, None, judged, &case.model);
+            let with = vec![Given::Rate(rate)];
+            let found = Found::new(FoundKind::ConstantRate, &function, None, judged, &case.model);
             return Ok(Some(Found { with, ..found }));
         }
     }
@@ -167,20 +169,27 @@ fn changed(
     place: usize,
 ) -> Result<Option<Found>, SearchError> {
     let own = &report.found[place];
-    let constants = match own.kind {
-        "integral" | FURTHER_INTEGRAL | DARBOUX | CONSTANT_RATE => Constants::Left,
-        "density" => Constants::Sign,
+    let kind = own.kind;
+    let constants = match kind {
+        FoundKind::Integral
+        | FoundKind::FurtherIntegral
+        | FoundKind::DarbouxPolynomial
+        | FoundKind::ConstantRate => Constants::Left,
+        FoundKind::Density => Constants::Sign,
         _ => return Ok(None),
     };
-    let Some(function) = own.function.as_ref() else { return Ok(None) };
+    let Some(function) = own.function() else { return Ok(None) };
     let is_plain = own.abbreviations.is_empty() && function.value_type() == Type::Scalar;
-    if !is_plain || own.verdict != Verdict::Proved || own.formula.len() > LONGEST {
+    if !is_plain || own.verdict != Verdict::Proved || own.text().len() > LONGEST {
         return Ok(None);
     }
-    let rate = own.with.iter().position(|(what, _)| matches!(*what, "rate" | "cofactor"));
-    let read = reader.read(&own.formula);
-    let Some(read) = read else { return Ok(None) };
-    let is_shifted = matches!(own.kind, "integral" | FURTHER_INTEGRAL | CONSTANT_RATE);
+    let is_rate = |own: &Given| matches!(own, Given::Rate(_) | Given::Cofactor(_));
+    let rate = own.with.iter().position(is_rate);
+    let Some(read) = reader.read(own.text()) else { return Ok(None) };
+    let is_shifted = matches!(
+        own.kind,
+        FoundKind::Integral | FoundKind::FurtherIntegral | FoundKind::ConstantRate
+    );
     let mut shifts = Vec::new();
     if is_shifted {
         let turned = hyperbolic::turned(reader, &read);
@@ -200,36 +209,35 @@ fn changed(
             (made, shift) = (own, Some(constant));
         }
     }
-    let mut with = own.with.clone();
+    let mut rate_text = None;
     if let Some(rate) = rate {
-        let text = &own.with[rate].1;
-        let Some(read) = reader.read(text) else { return Ok(None) };
+        let Some(read) = reader.read(own.with[rate].text()) else { return Ok(None) };
         let scaled = match (own.kind, &made) {
-            (CONSTANT_RATE, Some(made)) => {
+            (FoundKind::ConstantRate, Some(made)) => {
                 read.over(&made.constant).and_then(|own| reader.simplified(own))
             }
             _ => Some(read),
         };
         let written = scaled.and_then(|own| writer::written(reader, &own, Constants::Kept));
         match written {
-            Some(written) => with[rate].1 = written.text,
+            Some(written) => rate_text = Some(written.text),
             // The function keeps the factor that its rate has.
-            None if own.kind == CONSTANT_RATE => (made, shift) = (None, None),
+            None if own.kind == FoundKind::ConstantRate => (made, shift) = (None, None),
             None => {}
         }
     }
     let made = made.unwrap_or_else(|| Written {
-        text: own.formula.clone(),
+        text: own.text().to_string(),
         constant: Fraction::one(),
         constant_text: "1".to_string(),
     });
-    let letters = |formula: &str, with: &[(&'static str, String)]| {
-        formula.chars().count() + with.iter().map(|(_, own)| own.chars().count()).sum::<usize>()
-    };
-    let (new, old) = (letters(&made.text, &with), letters(&own.formula, &own.with));
+    let letters = |text: &str| text.chars().count();
+    let old_rate = rate.map_or(0, |rate| letters(own.with[rate].text()));
+    let new_rate = rate_text.as_deref().map_or(old_rate, letters);
+    let (new, old) = (letters(&made.text) + new_rate, letters(own.text()) + old_rate);
     // A factor belongs to the rate.
     let is_simpler =
-        own.kind == CONSTANT_RATE && letters(&made.text, &[]) < letters(&own.formula, &[]);
+        own.kind == FoundKind::ConstantRate && letters(&made.text) < letters(own.text());
     if new > old || new == old && !is_simpler {
         return Ok(None);
     }
@@ -245,15 +253,16 @@ fn changed(
         same = (&same + &shift.bracketed())?;
     }
     let mut claims = vec![Claim::identity(function, &same)];
-    if let Some(rate) = rate {
-        let (Ok(before), Ok(after)) =
-            (case.formula(&own.with[rate].1), case.formula(&with[rate].1))
-        else {
-            return Ok(None);
-        };
-        let after = match own.kind {
-            CONSTANT_RATE => (&scale.bracketed() * &after.bracketed())?,
-            _ => after,
+    let mut with = own.with.clone();
+    if let Some(Given::Rate(own) | Given::Cofactor(own)) = rate.map(|rate| &mut with[rate]) {
+        let before = own.clone();
+        if let Some(text) = &rate_text {
+            let Ok(after) = case.formula(text) else { return Ok(None) };
+            *own = after;
+        }
+        let after = match kind {
+            FoundKind::ConstantRate => (&scale.bracketed() * &own.bracketed())?,
+            _ => own.clone(),
         };
         claims.push(Claim::identity(&before, &after));
     }
@@ -262,14 +271,14 @@ fn changed(
             return Ok(None);
         }
     }
-    let text = formula.to_string();
+    let text = formula.text().trim();
     let is_told = report.found.iter().enumerate().any(|(at, other)| {
-        at != place && other.kind == own.kind && other.formula == text && other.with == with
+        at != place && other.kind == own.kind && other.text() == text && other.with == with
     });
-    if is_told && own.kind != CONSTANT_RATE {
+    if is_told && own.kind != FoundKind::ConstantRate {
         return Ok(None);
     }
-    Ok(Some(Found { formula: text, function: Some(formula), with, ..own.clone() }))
+    Ok(Some(Found { formula: FoundFormula::Function(formula), with, ..own.clone() }))
 }
 
 fn is_proved(case: &Case, claim: Claim, effort: &Effort) -> Result<bool, SearchError> {

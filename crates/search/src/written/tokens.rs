@@ -26,12 +26,10 @@ impl<'c> Tokens<'c> {
     pub fn new(case: &'c Case) -> Self {
         let mut tokens = Self { case, all: Vec::new() };
         let model = &case.model;
-        let parameters = model
-            .free_parameters()
-            .flat_map(|own| (0..own.kind.size()).map(|place| own.kind.component(&own.name, place)));
-        let state = (0..model.dimension()).map(|k| model.component_name(k));
         // Terms follow the order of the file.
-        parameters.chain(state).for_each(|name| _ = tokens.of(&name));
+        for name in [model.parameter_names(), model.state_names()].concat() {
+            tokens.of(&name);
+        }
         tokens
     }
 

@@ -14,7 +14,7 @@ use std::path::Path;
 
 use liouville::case::{Case, Setting};
 use liouville::verdict::Verdict;
-use liouville_search::{Effort, Halt, SearchReport, search};
+use liouville_search::{Effort, FoundKind, Given, Halt, SearchReport, search};
 
 fn effort(degree: u32) -> Effort {
     Effort { degree, ..Effort::default() }
@@ -31,9 +31,9 @@ fn searched(path: &str, effort: &Effort) -> SearchReport {
 /// Integrals with the potentials, forces or terms that they survive; all are proved.
 fn told(report: &SearchReport) -> Vec<(&str, &str)> {
     let own = report.found.iter().filter(|found| !found.with.is_empty());
-    let own = own.filter(|found| found.kind == "integral");
+    let own = own.filter(|found| found.kind == FoundKind::Integral);
     own.inspect(|found| assert_eq!(found.verdict, Verdict::Proved, "{found:?}"))
-        .map(|found| (found.formula.as_str(), found.with[0].1.as_str()))
+        .map(|found| (found.text(), found.with[0].text()))
         .collect()
 }
 
@@ -60,12 +60,13 @@ fn integrals_of_the_papers_are_found_and_proved() {
     ];
     for (path, name) in cases {
         let report = searched(path, &effort(2));
-        let found: Vec<_> = report.found.iter().filter(|found| found.kind == "integral").collect();
+        let found: Vec<_> =
+            report.found.iter().filter(|found| found.kind == FoundKind::Integral).collect();
         assert_eq!(found.len(), 1, "{path}: {found:?}");
-        assert_eq!(found[0].verdict, Verdict::Proved, "{path}: {}", found[0].formula);
+        assert_eq!(found[0].verdict, Verdict::Proved, "{path}: {}", found[0].text());
         // The library contains neither the claim nor its form: the two are shown to be dependent.
         let known = found[0].known.as_deref().unwrap_or("");
-        assert!(known.starts_with(name), "{path}: {} comes from `{known}`", found[0].formula);
+        assert!(known.starts_with(name), "{path}: {} comes from `{known}`", found[0].text());
         assert!(report.opinions.iter().all(|opinion| opinion.agrees()), "{path}: singular values");
         let last = report.counts.last().expect("integrals were counted");
         assert_eq!(last.dimension, last.known, "{path}: all that are counted are found");
@@ -87,9 +88,9 @@ fn densities_of_the_papers_are_found_and_proved() {
     ];
     for (path, formula) in cases {
         let report = searched(path, &effort(0));
-        let found: Vec<&str> = report.formulas("density").collect();
+        let found: Vec<&str> = report.formulas(FoundKind::Density).collect();
         assert_eq!(found, [formula], "{path}");
-        let density = report.found.iter().find(|found| found.kind == "density");
+        let density = report.found.iter().find(|found| found.kind == FoundKind::Density);
         assert_eq!(density.map(|found| found.verdict), Some(Verdict::Proved), "{path}");
     }
 }
@@ -131,7 +132,7 @@ fn symmetry_fields_are_found_and_proved() {
     ];
     for (path, expected) in cases {
         let report = searched(path, &effort(0));
-        let found: Vec<&str> = report.formulas("symmetry-field").collect();
+        let found: Vec<&str> = report.formulas(FoundKind::SymmetryField).collect();
         assert_eq!(found, expected, "{path}");
         assert!(report.found.iter().all(|found| found.verdict == Verdict::Proved), "{path}");
     }
@@ -147,14 +148,18 @@ fn potentials_that_separate_keep_an_integral() {
     ] {
         let report = search(&case(&format!("{body}{potential}")), &effort(2), &mut |_| {});
         let report = report.expect("it can be searched");
-        assert_eq!(report.formulas("integral").collect::<Vec<_>>(), [integral], "{potential}");
+        assert_eq!(
+            report.formulas(FoundKind::Integral).collect::<Vec<_>>(),
+            [integral],
+            "{potential}"
+        );
     }
     // A generating function of them, with a user's term.
     let text = format!("{body}'a/(γ,inverse(J − l*E)*γ)'");
     let mut effort = effort(2);
     effort.terms = vec!["U*(γ,adj(J)*(inverse(J − l*E)*γ))".into()];
     let report = search(&case(&text), &effort, &mut |_| {}).expect("it can be searched");
-    assert_eq!(report.formulas("integral").count(), 1, "{:?}", report.found);
+    assert_eq!(report.formulas(FoundKind::Integral).count(), 1, "{:?}", report.found);
     effort.terms = vec!["U*ω".into()];
     let error = search(&case(&text), &effort, &mut |_| {}).expect_err("a vector is no term");
     assert!(error.to_string().contains("U*ω"), "{error}");
@@ -163,7 +168,10 @@ fn potentials_that_separate_keep_an_integral() {
 #[test]
 fn nothing_is_found_where_there_is_nothing() {
     let report = searched("plane/ellipsoid-generic", &effort(4));
-    assert_eq!(report.formulas("integral").count() + report.formulas("density").count(), 0);
+    assert_eq!(
+        report.formulas(FoundKind::Integral).count() + report.formulas(FoundKind::Density).count(),
+        0
+    );
     let theorem = &report.excluded[0].theorem;
     assert!(theorem.contains("of degree at most 4 is a polynomial in the energy"), "{theorem}");
 }
@@ -173,7 +181,7 @@ fn a_field_without_series_makes_no_theorem() {
     let report = searched("sphere/constant-curvature", &effort(2));
     assert!(report.counts.is_empty() && report.excluded.is_empty(), "{:?}", report.excluded);
     assert!(report.remarks.iter().any(|remark| remark.contains('∫')), "{:?}", report.remarks);
-    assert_eq!(report.formulas("density").collect::<Vec<_>>(), ["det(Ĩ)*(γ,Ĩ⁻¹*γ)*D_T"]);
+    assert_eq!(report.formulas(FoundKind::Density).collect::<Vec<_>>(), ["det(Ĩ)*(γ,Ĩ⁻¹*γ)*D_T"]);
 }
 
 #[test]
@@ -196,7 +204,7 @@ fn a_force_that_is_no_potential_makes_no_false_theorem() {
     );
     let report = search(&oscillator, &effort(2), &mut |_| {}).expect("it can be searched");
     // The energy is not an integral, 2x² + x'² is.
-    let found: Vec<&str> = report.formulas("integral").collect();
+    let found: Vec<&str> = report.formulas(FoundKind::Integral).collect();
     assert_eq!(found.len(), 1, "{found:?}");
     assert!(report.excluded.iter().all(|excluded| !excluded.theorem.contains("energy")));
 }
@@ -220,7 +228,8 @@ fn potentials_and_rotors_that_keep_an_integral_are_found_and_proved() {
             let excluded = report.excluded.iter().find(|one| one.ansatz.starts_with(form));
             let excluded = excluded.expect("they were looked for");
             assert_eq!((excluded.dimension, excluded.known), (count, count), "{path}: {what}");
-            let found = report.found.iter().find(|one| one.with.iter().any(|(w, _)| *w == what));
+            let found =
+                report.found.iter().find(|one| one.with.iter().any(|own| own.name() == what));
             assert_eq!(found.is_some(), count > 0, "{path}: {what}");
             assert!(found.is_none_or(|one| one.verdict == Verdict::Proved), "{path}: {what}");
         }
@@ -240,7 +249,7 @@ fn a_rotor_leaves_the_potentials_that_depend_on_its_cosine() {
         let case = Case::read(path, &[setting]).1.expect("a case of the catalogue");
         let report = search(&case, &wanted, &mut |_| {}).expect("it can be searched");
         let with = report.found.iter().flat_map(|found| &found.with);
-        let found: Vec<&str> = with.map(|(_, formula)| formula.as_str()).collect();
+        let found: Vec<&str> = with.map(Given::text).collect();
         assert_eq!(found.len(), expected, "{rotor}: {found:?}");
         assert!(found.iter().all(|formula| *formula == "ε1*(1/γ3²)"), "{found:?}");
     }
@@ -293,7 +302,7 @@ fn densities_that_depend_on_the_velocities_are_counted_and_found() {
          \"x'\" = '1..2'\n[lagrangian]\nkinetic = \"x'²/2\"\nforces = { x = \"−c*x'\" }\n",
     );
     let report = search(&damped, &effort(2), &mut |_| {}).expect("it can be searched");
-    let density: Vec<&str> = report.formulas("density").collect();
+    let density: Vec<&str> = report.formulas(FoundKind::Density).collect();
     assert_eq!(density, ["1/x'"], "div v = −c, and no density of x alone");
     let last = report.multipliers.last().expect("they were counted");
     assert_eq!((last.degree, last.alpha, last.dimension), (1, Some(-1), 1));

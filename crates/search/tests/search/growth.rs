@@ -83,8 +83,7 @@ fn searches_of_fields_of_many_terms_end_by_the_steps_of_their_series() {
     let effort = Effort { seconds: 0.0001, by_class: false, ..Effort::default() };
     let report = search(&case, &effort, &mut |_| {}).expect("it can be searched");
     let remarks: Vec<String> = report.remarks.iter().map(ToString::to_string).collect();
-    let expected =
-        "no further Darboux polynomials: series of orbits take more than 0.0001 s; raise --seconds";
+    let expected = "no further Darboux polynomials: series of orbits take more than 0.0001 s; raise --count-seconds";
     assert!(remarks.iter().any(|own| own == expected), "{remarks:?}");
     assert!(!report.orbits.is_empty(), "relations along an orbit are reported");
 }

@@ -27,7 +27,7 @@ use std::time::{Duration, Instant};
 use liouville::case::Case;
 use liouville::claim::Claim;
 use liouville::verdict::{Options, Verdict};
-use liouville_search::{Effort, Excluded, Halt, SearchReport, search};
+use liouville_search::{Effort, Excluded, FoundKind, Halt, SearchReport, search};
 
 fn searched(text: &str, effort: &Effort) -> SearchReport {
     let case = Case::parse(text, &[]).expect("a case");
@@ -75,11 +75,11 @@ fn chaotic_fields_have_no_rational_integral_of_degree_8() {
 #[test]
 fn rational_integrals_are_written_out() {
     let dipole = searched(&field("", &["2*x*y", "y² - x²"]), &Effort::default());
-    assert_eq!(dipole.formulas("integral").count(), 1, "circles through the origin");
+    assert_eq!(dipole.formulas(FoundKind::Integral).count(), 1, "circles through the origin");
     // A Lotka–Volterra field of the ABC type with two integrals.
     let fields = ["x*(y - z)", "y*(z - x)", "z*(x - y)"];
     let volterra = searched(&field("", &fields), &Effort::default());
-    assert_eq!(volterra.formulas("integral").count(), 2, "x + y + z and xyz");
+    assert_eq!(volterra.formulas(FoundKind::Integral).count(), 2, "x + y + z and xyz");
     // May and Leonard, α + β = 2.
     let fields = [
         "x*(1 - x - a*y - (2 - a)*z)",
@@ -87,7 +87,7 @@ fn rational_integrals_are_written_out() {
         "z*(1 - z - a*x - (2 - a)*y)",
     ];
     let leonard = searched(&field("a = '3/2'", &fields), &Effort::default());
-    let found: Vec<&str> = leonard.formulas("integral").collect();
+    let found: Vec<&str> = leonard.formulas(FoundKind::Integral).collect();
     assert_eq!(found.len(), 1, "xyz/(x + y + z)³: {found:?}");
     let is_all = |own: &Excluded| own.known == 1 && own.theorem.contains("very integral P/Q");
     assert!(leonard.excluded.iter().any(is_all), "{:?}", leonard.excluded);
@@ -101,7 +101,7 @@ fn integrals_on_a_level_are_found() {
                 [field]\n\"M'\" = 'M × [M1/4, M2/4, M3] + γ × [1, 0, 0]'\n\"γ'\" = 'γ × [M1/4, M2/4, M3]'\n\
                 [level]\nequations = ['(γ,γ) = 1', '(M,γ) = 0']\n";
     let report = searched(text, &Effort::default());
-    let found: Vec<&str> = report.formulas("integral").collect();
+    let found: Vec<&str> = report.formulas(FoundKind::Integral).collect();
     assert_eq!(found.len(), 2, "the energy and M₃(M₁² + M₂²) + … : {found:?}");
 }
 
@@ -169,7 +169,7 @@ fn integrals_with_functions_are_found() {
     for (rates, wanted) in fields {
         let report = searched(&any_field(rates), &Effort::default());
         let case = Case::parse(&any_field(rates), &[]).expect("a case");
-        let found: Vec<&str> = report.formulas("integral").collect();
+        let found: Vec<&str> = report.formulas(FoundKind::Integral).collect();
         for own in wanted {
             let same = |text: &&&str| {
                 let [a, b] = [own, *text].map(|text| case.formula(text).expect("a formula"));
@@ -253,7 +253,7 @@ fn planted_integrals_with_functions_are_never_excluded() {
         assert!(degree.is_none_or(|degree| degree < limit), "plant {plant}: {text}");
         if report.excluded.iter().any(|own| own.theorem.contains("is a function of")) {
             let planted = case.formula(&format!("({a}*{f} + {b})/{c}")).expect("a formula");
-            let all = report.functions("integral").cloned().chain([planted]).collect();
+            let all = report.functions(FoundKind::Integral).cloned().chain([planted]).collect();
             let judged = case.judge(&[Claim::independent(all)], &Options::default());
             let verdict = judged.expect("judged").claims[0].verdict;
             assert_ne!(verdict, Verdict::Proved, "plant {plant}: {:?}", report.excluded);
@@ -268,14 +268,14 @@ fn coefficients_contain_any_parameter() {
     // A sleigh: J is a number here, and s occurs nowhere.
     let own = "m = '0.5..2'\nJ = '0.5..2'\na = '0.5..1'\ns = '1..2'";
     let sleigh = searched(&field(own, &["a*y²", "-m*a/(J + m*a²)*x*y"]), &Effort::default());
-    let found: Vec<&str> = sleigh.formulas("integral").collect();
+    let found: Vec<&str> = sleigh.formulas(FoundKind::Integral).collect();
     assert_eq!(found, ["m*x² + (J + m*a²)*y²"]);
     // Brun's body: a common denominator would raise the degree of the third coefficient.
     let brun = "title = 'x'\nsystem = 'field'\n[parameters]\nI = 'inertia(0.5..5)'\ne = '0.3..1'\nc = '0.5..1'\n\
                 [state]\nM = 'vector(-2..2)'\nn = 'vector(-1..1)'\n[let]\nw = 'I⁻¹*M'\n\
                 [field]\n\"M'\" = 'M × w + e*(n × I*n)'\n\"n'\" = 'n × w'\n\
                 [level]\nequations = ['(n,n) = 1', '(M,n) = c']";
-    assert_eq!(searched(brun, &Effort::default()).formulas("integral").count(), 2);
+    assert_eq!(searched(brun, &Effort::default()).formulas(FoundKind::Integral).count(), 2);
 }
 
 #[test]
@@ -298,7 +298,7 @@ fn coefficients_contain_the_roots_of_the_field() {
         let case = Case::parse(&text, &[]).expect("a case");
         let report = searched(&text, &Effort::default());
         let wanted = case.formula(wanted).expect("a formula");
-        let all = report.functions("integral").cloned().chain([wanted.clone()]).collect();
+        let all = report.functions(FoundKind::Integral).cloned().chain([wanted.clone()]).collect();
         let claims = [Claim::integral(&wanted), Claim::independent(all)];
         let judged = case.judge(&claims, &Options::default()).expect("judged");
         let verdicts: Vec<Verdict> = judged.claims.iter().map(|own| own.verdict).collect();
@@ -344,7 +344,7 @@ fn searches_stop_in_time() {
     let poisson = Some(liouville_search::Hamiltonians::Known);
     let report = searched(&text, &Effort { poisson, halt, ..Effort::default() });
     assert!(start.elapsed() < Duration::from_secs(4), "{:?}", start.elapsed());
-    assert!(report.formulas("integral").count() > 1, "what was found before is told");
+    assert!(report.formulas(FoundKind::Integral).count() > 1, "what was found before is told");
 }
 
 #[test]
@@ -352,7 +352,7 @@ fn two_integrals_are_told_in_place_of_their_fraction() {
     let text = "title = 't'\n[state]\nx = '-2..2'\ny = '-2..2'\n\"x'\" = '-2..2'\n\"y'\" = '-2..2'\n\
                 [lagrangian]\nkinetic = \"(x'² + y'²)/2\"\npotential = '(x² + 4*y²)/2'\n";
     let report = searched(text, &Effort { by_class: false, ..Effort::default() });
-    let integrals: Vec<&str> = report.formulas("integral").collect();
+    let integrals: Vec<&str> = report.formulas(FoundKind::Integral).collect();
     assert!(integrals.iter().all(|own| !own.contains('/')), "{integrals:?}");
     assert!(integrals.iter().any(|own| own.contains("y*x'²")), "{integrals:?}");
     let counted = report.counts.iter().find(|own| own.degree == 2).expect("counted");

@@ -10,7 +10,7 @@ use liouville::case::Case;
 use liouville::claim::Claim;
 use liouville::formula::Formula;
 use liouville::verdict::{Options, Verdict};
-use liouville_search::{Effort, SearchReport, search};
+use liouville_search::{Effort, FoundKind, SearchReport, search};
 
 /// A system with an invariant.
 struct Plant {
@@ -198,7 +198,8 @@ fn mistakes(case: &Case, plant: &Plant, report: &SearchReport) -> Vec<String> {
             && degree(degrees).is_some_and(|degree| reached >= degree)
         {
             // Integrals that the theorem names are those found, and the energy.
-            let named = report.functions("integral").filter(|f| own.theorem.contains(f.text()));
+            let named =
+                report.functions(FoundKind::Integral).filter(|f| own.theorem.contains(f.text()));
             let energy = own.theorem.contains("energy").then(|| formula("energy"));
             let all: Vec<Formula> =
                 named.cloned().chain(energy).chain([formula(integral)]).collect();
@@ -215,8 +216,8 @@ fn mistakes(case: &Case, plant: &Plant, report: &SearchReport) -> Vec<String> {
             && reached >= 1
         {
             let factors: Vec<String> = (report.found.iter())
-                .filter(|found| own.theorem.contains(found.formula.as_str()))
-                .map(|found| format!("({})", found.formula.replace('x', line)))
+                .filter(|found| own.theorem.contains(found.text()))
+                .map(|found| format!("({})", found.text().replace('x', line)))
                 .collect();
             let product = factors.iter().fold("1".to_string(), |all, one| format!("{all}*{one}"));
             if !is_proved(Claim::identity(&formula(&product), &formula("0*x"))) {

@@ -20,7 +20,7 @@ fn told(text: &str, effort: &Effort) -> (Vec<String>, Vec<String>) {
     let case = Case::parse(text, &[]).unwrap_or_else(|error| panic!("{error}\n{text}"));
     let report = search(&case, effort, &mut |_| {}).expect("it can be searched");
     let theorems = report.excluded.iter().map(|own| own.theorem.clone()).collect();
-    let found = report.found.iter().map(|own| format!("{}: {}", own.kind, own.formula)).collect();
+    let found = report.found.iter().map(|own| format!("{}: {}", own.kind, own.text())).collect();
     (theorems, found)
 }
 

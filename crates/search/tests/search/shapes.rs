@@ -3,7 +3,7 @@
 use liouville::case::Case;
 use liouville::claim::Claim;
 use liouville::verdict::{Options, Verdict};
-use liouville_search::{Effort, SearchReport, search};
+use liouville_search::{Effort, FoundKind, SearchReport, search};
 
 fn searched(text: &str) -> SearchReport {
     let case = Case::parse(text, &[]).expect("a case");
@@ -12,9 +12,9 @@ fn searched(text: &str) -> SearchReport {
 
 fn vectors(report: &SearchReport) -> Vec<&str> {
     assert!(report.found.iter().all(|found| found.verdict == Verdict::Proved), "{report:?}");
-    let own = report.found.iter().filter(|found| found.kind == "vector-integral");
+    let own = report.found.iter().filter(|found| found.kind == FoundKind::VectorIntegral);
     own.inspect(|found| assert!(found.with.len() > 1, "{found:?}"))
-        .map(|found| found.formula.as_str())
+        .map(|found| found.text())
         .collect()
 }
 
@@ -25,13 +25,13 @@ fn integrals_of_a_body_are_inner_products() {
                 [field]\n\"M'\" = 'M × w + e*(n × I*n)'\n\"n'\" = 'n × w'\n\
                 [level]\nequations = ['(n,n) = 1', '(M,n) = c']";
     let report = searched(brun);
-    let mut found: Vec<&str> = report.formulas("integral").collect();
+    let mut found: Vec<&str> = report.formulas(FoundKind::Integral).collect();
     found.sort_by_key(|text| text.len());
     assert_eq!(found, ["(M,w) + e*(n,I*n)", "(M,M) − I1*I2*I3*e*(n,I⁻¹*n)"]);
     assert!(report.found.iter().all(|found| found.verdict == Verdict::Proved));
     // They are independent, so nothing was lost.
     let case = Case::parse(brun, &[]).expect("a case");
-    let all = report.functions("integral").cloned().collect();
+    let all = report.functions(FoundKind::Integral).cloned().collect();
     let judged = case.judge(&[Claim::independent(all)], &Options::default()).expect("judged");
     assert_eq!(judged.claims[0].verdict, Verdict::Proved);
 }
@@ -42,7 +42,7 @@ fn what_is_no_inner_product_stays_as_it_is() {
     let text = "title = 'x'\n[parameters]\na = '0.5..2'\n[state]\nM = 'vector(-2..2)'\n[field]\n\
                 \"M'\" = '[(1 + a)*M2*M3, a²*M3*M1, −(2*a + 3)*M1*M2]'\n";
     let report = searched(text);
-    let found: Vec<&str> = report.formulas("integral").collect();
+    let found: Vec<&str> = report.formulas(FoundKind::Integral).collect();
     assert_eq!(found.len(), 2, "{found:?}");
     assert!(found.iter().all(|text| !text.contains("(M,")), "{found:?}");
 }
@@ -64,7 +64,7 @@ fn components_of_vectors_are_gathered() {
     assert_eq!(vectors(&central), ["[x, y, z] × [u, v, w]"]);
     // One component alone makes no vector.
     let axial = searched(&particle("(x² + y² + 2*z²)²"));
-    assert_eq!(axial.formulas("integral").count(), 1, "{:?}", axial.found);
+    assert_eq!(axial.formulas(FoundKind::Integral).count(), 1, "{:?}", axial.found);
     assert!(vectors(&axial).is_empty());
 }
 
@@ -76,9 +76,10 @@ fn the_surface_of_a_ball_and_what_follows_from_it_are_no_finds() {
     let case = Case::parse(bowl, &[]).expect("a case");
     let formula = |text: &str| case.formula(text).expect("a formula");
     let mut known = vec![formula("energy"), formula("(r1² + r2²)/2 − r3")];
-    let is_integral = |kind: &str| kind == "integral" || kind == "further-integral";
+    let is_integral =
+        |kind: FoundKind| matches!(kind, FoundKind::Integral | FoundKind::FurtherIntegral);
     let own = report.found.iter().filter(|found| is_integral(found.kind));
-    known.extend(own.map(|found| found.function.clone().expect("a function")));
+    known.extend(own.map(|found| found.function().cloned().expect("a function")));
     assert!(known.len() > 2, "one is found");
     let judged = case.judge(&[Claim::independent(known)], &Options::default()).expect("judged");
     assert_eq!(judged.claims[0].verdict, Verdict::Proved, "{:?}", report.found);

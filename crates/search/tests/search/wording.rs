@@ -139,7 +139,7 @@ fn functions_of_several_claims_are_known() {
     let claims = "[[claim]]\nname = 'En'\nintegral = 'y^2/2 + A*x^2/2 - z'\n\
                   [[claim]]\nname = 'height'\nintegral = 'z'\n";
     let report = searched(&format!("{spring}{claims}"), 2);
-    let own = report.found.iter().find(|own| own.formula.contains("A*x²")).expect("found");
+    let own = report.found.iter().find(|own| own.text().contains("A*x²")).expect("found");
     assert_eq!(own.known.as_deref(), Some("En, height"), "it is 2 (En + z)");
 }
 
@@ -152,6 +152,6 @@ fn an_integral_that_is_rewritten_is_compared_with_the_claims_again() {
                      c = 'c × (w - b)'\n[[claim]]\nname = 'Jacobi'\n\
                      integral = '(M,w)/2 - (M,b) + 3/2*(c,J*c)'\n";
     let report = searched(satellite, 2);
-    let own = report.found.iter().find(|own| own.formula.contains("(M,b)")).expect("found");
-    assert_eq!(own.known.as_deref(), Some("Jacobi"), "{}", own.formula);
+    let own = report.found.iter().find(|own| own.text().contains("(M,b)")).expect("found");
+    assert_eq!(own.known.as_deref(), Some("Jacobi"), "{}", own.text());
 }

@@ -85,7 +85,7 @@ pub fn run(options: &OrbitArgs, case: &Case) -> Result<(String, bool), String> {
         let saved = out.filter(|_| rows > 0);
         let saved =
             saved.map(|out| format!("\nnote: {} has what comes before", out.path.display()));
-        return Err(told(options, problem) + &saved.unwrap_or_default());
+        return Err(options.subject.of_iterates(problem) + &saved.unwrap_or_default());
     }
     let orbits = || names.iter().zip(found.iter().map(|one| &one.orbit));
     let text = match (subject.json, &found[..]) {
@@ -115,15 +115,6 @@ fn check_options(options: &OrbitArgs) -> Result<(), String> {
             .to_string());
     }
     Ok(())
-}
-
-fn told(options: &OrbitArgs, problem: &IterateError) -> String {
-    match problem {
-        IterateError::Start(error) => options.subject.told(error),
-        other => {
-            format!("error: {}: {other}\nhelp: {}", options.subject.case.display(), other.help())
-        }
-    }
 }
 
 /// Columns of samples: n and the state, and in a picture the first two components of it.

@@ -35,7 +35,7 @@ pub fn answer(options: &ExponentsArgs) -> Result<(String, bool), String> {
     if let Some(Err(first)) = found.first()
         && found.iter().all(Result::is_err)
     {
-        return Err(told(options, first));
+        return Err(options.subject.of_iterates(first));
     }
     let json = map_json(&case.title, &names, &found, options.spectrum);
     let json = json.map_err(|error| format!("error: {error}"))? + "\n";
@@ -87,14 +87,5 @@ fn begins(case: &Case, options: &ExponentsArgs) -> Result<Vec<(String, Begin)>, 
     match given.is_empty() {
         true => Ok(vec![("drawn".to_string(), Begin::Drawn(0))]),
         false => Ok(given),
-    }
-}
-
-fn told(options: &ExponentsArgs, problem: &IterateError) -> String {
-    match problem {
-        IterateError::Start(error) => options.subject.told(error),
-        other => {
-            format!("error: {}: {other}\nhelp: {}", options.subject.case.display(), other.help())
-        }
     }
 }

@@ -208,6 +208,7 @@ impl ExploreCommand {
     pub fn all_limits(&self) -> LimitArgs {
         match self {
             Self::Site(options) => options.limits,
+            Self::Search(options) => options.limits(),
             Self::Motion { command } => command.subject().limits,
             Self::Former(FormerCommand::Motion(command)) => command.subject().limits,
             _ => self.limits(),

@@ -12,7 +12,7 @@ use liouville::mechanics::components;
 use liouville::number::double_double::DoubleDouble;
 use liouville::number::rational::{Rational, RationalError};
 use liouville_flow::{
-    ChoiceError, Fixed, FlowError, FormulaMistake, SectionChoice, number_with_pi,
+    ChoiceError, Fixed, FlowError, FormulaMistake, IterateError, SectionChoice, number_with_pi,
 };
 
 use super::LimitArgs;
@@ -139,6 +139,14 @@ impl MotionArgs {
         match named.is_empty() {
             true => String::new(),
             false => format!("drawn with seed {}: {}\n", self.seed, named.join(", ")),
+        }
+    }
+
+    /// Message about a failed orbit of a map, with its file.
+    pub fn of_iterates(&self, error: &IterateError) -> String {
+        match error {
+            IterateError::Start(error) => self.told(error),
+            other => format!("error: {}: {other}\nhelp: {}", self.case.display(), other.help()),
         }
     }
 

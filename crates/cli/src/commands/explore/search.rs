@@ -11,7 +11,7 @@ use liouville_search::{ConditionTarget, Effort, Halt};
 use signal_hook::consts::SIGINT;
 use signal_hook::flag;
 
-use super::super::limits::{STOPPED, parse_seconds};
+use super::super::limits::{LimitArgs, MemoryWatch, STOPPED, parse_seconds};
 use super::eval::open_signed;
 use super::motion::Threads;
 use super::telling;
@@ -57,16 +57,21 @@ pub struct SearchArgs {
     #[arg(long, value_name = "HAMILTONIAN", num_args = 0..=1, require_equals = true, default_missing_value = "")]
     pub poisson: Option<String>,
     /// Limit of memory of one count, in megabytes; an ansatz that may need more is skipped
-    #[arg(long, default_value_t = 500)]
-    pub megabytes: u64,
+    #[arg(long, value_name = "N", default_value_t = 500)]
+    pub count_megabytes: u64,
     /// Limit of time of one count, in seconds of an average machine (measured in steps); an ansatz
     /// that may need more is skipped
-    #[arg(long, default_value = "60", value_parser = parse_seconds)]
-    pub seconds: Duration,
+    #[arg(long, visible_alias = "seconds", value_name = "SECONDS", default_value = "60",
+        value_parser = parse_seconds)]
+    pub count_seconds: Duration,
     /// Stop after SECONDS and report partial results (also on Ctrl-C); the exit code is then 3. Own
     /// fields are searched in higher degrees until then
     #[arg(long, value_name = "SECONDS", value_parser = parse_seconds)]
     pub within: Option<Duration>,
+    /// Stop when the program takes more than N megabytes of memory, and report partial results; the exit
+    /// code is then 3
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    pub megabytes: Option<u64>,
     #[command(flatten)]
     pub threads: Threads,
     /// Seed of primes, points and states
@@ -77,7 +82,15 @@ pub struct SearchArgs {
     pub json: bool,
 }
 
+impl SearchArgs {
+    /// Limits that the search itself keeps.
+    pub fn limits(&self) -> LimitArgs {
+        LimitArgs { within: None, megabytes: self.megabytes }
+    }
+}
+
 pub fn run(options: &SearchArgs) -> Result<CommandOutput, String> {
+    options.limits().check()?;
     let (case, digest) = open_signed(&options.case, &options.settings)?;
     let effort = Effort {
         degree: options.degree,
@@ -87,13 +100,13 @@ pub fn run(options: &SearchArgs) -> Result<CommandOutput, String> {
             "" => ConditionTarget::Existence,
             name => ConditionTarget::Claim(name.to_string()),
         }),
-        seconds: options.seconds.as_secs_f64(),
+        seconds: options.count_seconds.as_secs_f64(),
         ansatz: liouville_search::Ansatz {
             wanted: options.ansatz.is_some(),
             positions: options.ansatz.unwrap_or(liouville_search::Ansatz::default().positions),
             potentials: options.potentials,
             gyrostats: options.gyrostats,
-            megabytes: options.megabytes,
+            megabytes: options.count_megabytes,
         },
         poisson: options.poisson.as_ref().map(|formula| match formula.as_str() {
             "" => liouville_search::Hamiltonians::Known,
@@ -112,6 +125,7 @@ pub fn run(options: &SearchArgs) -> Result<CommandOutput, String> {
     }
     // A second Ctrl-C exits immediately.
     let switch = effort.halt.switch();
+    let _watch = MemoryWatch::start(options.megabytes, Arc::clone(&switch));
     flag::register_conditional_shutdown(SIGINT, INTERRUPTED, Arc::clone(&switch))
         .and_then(|_| flag::register(SIGINT, switch))
         .map_err(|error| format!("error: cannot listen to Ctrl-C: {error}"))?;

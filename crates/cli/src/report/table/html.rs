@@ -1,6 +1,9 @@
 //! Tables of the papers as web pages.
 
-use super::{CellClaim, Filled, Regenerated, StatedCell, letter, target};
+use liouville::formula::Layout;
+
+use super::markup::{Markup, filled, stated};
+use super::{Regenerated, letter};
 use crate::report::typeset::mathml::{escaped, formula};
 
 /// Style of the page.
@@ -33,12 +36,12 @@ pub fn render(table: &Regenerated) -> String {
                 (false, _) => " class=\"head\"",
             };
             let span = if count > 1 { format!(" colspan=\"{count}\"") } else { String::new() };
-            out.push_str(&format!("\n<td{class}{span}>{}</td>", filled(cell)));
+            out.push_str(&format!("\n<td{class}{span}>{}</td>", filled::<Html>(cell)));
         }
         out.push_str("</tr>\n");
     }
     out.push_str("</table>\n");
-    let definitions = table.definitions.iter().map(stated);
+    let definitions = table.definitions.iter().map(stated::<Html>);
     let notes = table.notes.iter().map(|note| escaped(note));
     let theorems = table.theorems.iter().enumerate();
     let theorems = theorems.map(|(k, text)| format!("({}) {}", letter(k), escaped(text)));
@@ -49,18 +52,19 @@ pub fn render(table: &Regenerated) -> String {
     out
 }
 
-fn filled(cell: &Filled) -> String {
-    let words = cell.words.iter().map(|text| escaped(text));
-    let lines: Vec<String> = words.chain(cell.shown().map(stated)).collect();
-    if lines.is_empty() { "–".to_string() } else { lines.join("<br>") }
-}
+/// The language of web pages.
+struct Html;
 
-fn stated(claim: &CellClaim) -> String {
-    let text = match claim.stated() {
-        StatedCell::Formula(layout, _) => formula(layout, false),
-        StatedCell::Words(words) => escaped(words),
-    };
-    let letter = claim.letter().map_or(String::new(), |letter| format!(" ({letter})"));
-    let (mark, verdict) = (claim.mark(), claim.verdict());
-    format!("{mark} <a href=\"{}\">{verdict}</a>: {text}{letter}", target(&claim.path))
+impl Markup for Html {
+    fn escaped(text: &str) -> String {
+        escaped(text)
+    }
+
+    fn formula(layout: &Layout) -> String {
+        formula(layout, false)
+    }
+
+    fn link(words: &str, target: &str) -> String {
+        format!("<a href=\"{target}\">{words}</a>")
+    }
 }

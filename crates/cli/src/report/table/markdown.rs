@@ -1,6 +1,9 @@
 //! Tables of the papers as Markdown.
 
-use super::{CellClaim, Filled, Regenerated, StatedCell, letter, target};
+use liouville::formula::Layout;
+
+use super::markup::{Markup, filled, stated};
+use super::{Regenerated, letter};
 use crate::report::typeset::latex::formula;
 use liouville_report::inline;
 
@@ -14,11 +17,11 @@ pub fn render(table: &Regenerated) -> String {
     for row in &table.rows {
         out.push_str(&format!("| **{}** |", row.label()));
         for cell in &row.cells {
-            out.push_str(&format!(" {} |", filled(cell)));
+            out.push_str(&format!(" {} |", filled::<Markdown>(cell)));
         }
         out.push('\n');
     }
-    let definitions = table.definitions.iter().map(stated);
+    let definitions = table.definitions.iter().map(stated::<Markdown>);
     let notes = table.notes.iter().map(|note| inline(note));
     let theorems = table.theorems.iter().enumerate();
     let theorems = theorems.map(|(k, text)| format!("({}) {}", letter(k), inline(text)));
@@ -28,20 +31,21 @@ pub fn render(table: &Regenerated) -> String {
     out
 }
 
-fn filled(cell: &Filled) -> String {
-    let words = cell.words.iter().map(|text| inline(text));
-    let lines: Vec<String> = words.chain(cell.shown().map(stated)).collect();
-    if lines.is_empty() { "–".to_string() } else { lines.join("<br>") }
-}
+/// The language of Markdown.
+struct Markdown;
 
-fn stated(claim: &CellClaim) -> String {
-    let text = match claim.stated() {
-        StatedCell::Formula(layout, _) => format!("${}$", formula(layout).replace('|', "\\|")),
-        StatedCell::Words(words) => inline(words),
-    };
-    let letter = claim.letter().map_or(String::new(), |letter| format!(" ({letter})"));
-    let (mark, verdict) = (claim.mark(), claim.verdict());
-    format!("{mark} [{verdict}](<{}>): {text}{letter}", target(&claim.path))
+impl Markup for Markdown {
+    fn escaped(text: &str) -> String {
+        inline(text)
+    }
+
+    fn formula(layout: &Layout) -> String {
+        format!("${}$", formula(layout).replace('|', "\\|"))
+    }
+
+    fn link(words: &str, target: &str) -> String {
+        format!("[{words}](<{target}>)")
+    }
 }
 
 #[cfg(test)]

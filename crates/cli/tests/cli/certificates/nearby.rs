@@ -36,3 +36,16 @@ fn what_a_certificate_says_of_parameters_nearby() {
     let near = verified("near", "0*ln(x + 3) + (x + 3)^b − 1");
     assert!(near.contains("for these parameters and all near them"), "{near}");
 }
+
+#[test]
+fn the_format_of_a_certificate_is_the_value_of_its_key() {
+    let path = scratch("by-points").with_extension("json");
+    let title = "no liouville motion certificate 1";
+    let own = format!(
+        "{{\"format\": \"liouville certificate 1\", \"statement\": {{\"title\": \"{title}\"}}}}"
+    );
+    fs::write(&path, own).expect("written");
+    let output = run(env!("CARGO_BIN_EXE_liouville"), &["verify", &path.display().to_string()]);
+    let told = text(&output.stdout);
+    assert!(told.contains("a proof by points, which"), "{told}");
+}

@@ -57,6 +57,20 @@ fn memory_is_limited_where_it_is_known() {
 }
 
 #[test]
+fn a_search_ends_at_its_limit_of_memory() {
+    let path = "plane/unbalanced-ball";
+    if cfg!(target_os = "linux") {
+        let told = liouville(&["search", path, "--megabytes", "1"]).assert().code(3);
+        let told = String::from_utf8_lossy(&told.get_output().stdout).into_owned();
+        assert!(told.contains("the search was stopped; it did not reach:"), "{told}");
+    }
+    // The limits of a count have names of their own, and the older one of its time is known.
+    for option in ["--count-seconds", "--seconds", "--count-megabytes"] {
+        liouville(&["search", path, option, "none"]).assert().code(2).stderr(contains("--count-"));
+    }
+}
+
+#[test]
 fn files_are_written_whole_or_not_at_all() {
     let place = folder("out", &[("good.toml", GOOD), ("old.html", "old")]);
     let file = |name: &str| place.join(name).to_str().expect("UTF-8").to_string();

@@ -26,6 +26,11 @@ pub struct Modulus {
 }
 
 impl Modulus {
+    /// Returns the point origin + t slope of a line.
+    pub fn along(&self, origin: &[u64], slope: &[u64], t: u64) -> Vec<u64> {
+        origin.iter().zip(slope).map(|(a, b)| self.add(*a, self.mul(t, *b))).collect()
+    }
+
     /// Makes the field of `prime` elements; `prime` must be odd and below 2^62.
     pub fn new(prime: u64) -> Self {
         // Newton's iteration doubles the number of correct low bits; p is its own inverse mod 8.

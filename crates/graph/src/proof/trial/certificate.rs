@@ -22,7 +22,6 @@ pub struct Certificate {
 impl Certificate {
     /// Returns the bound for the case that both certificates are needed.
     pub fn and(self, other: Self) -> Self {
-        // log₂(2^a + 2^b) ≤ max + 1
         Self {
             primes: self.primes.max(other.primes),
             points: fewest(self.points, other.points),
@@ -30,9 +29,14 @@ impl Certificate {
             degree: self.degree.max(other.degree),
             height: self.height.max(other.height),
             roots: self.roots.max(other.roots),
-            error_log2: self.error_log2.max(other.error_log2) + 1.0,
+            error_log2: sum_log2(self.error_log2, other.error_log2),
         }
     }
+}
+
+/// Log₂ of a bound on the sum of two error probabilities, from theirs: log₂(2^a + 2^b) ≤ max + 1.
+pub fn sum_log2(a: f64, b: f64) -> f64 {
+    a.max(b) + 1.0
 }
 
 /// Returns the smaller number of points; 0 counts as missing.

@@ -15,7 +15,7 @@ mod certificate;
 mod draw;
 mod residues;
 
-pub use certificate::{Certificate, both, fewest};
+pub use certificate::{Certificate, both, fewest, sum_log2};
 pub use draw::{PRIMES, TRIAL_LANES, points, prime_of, suitable_moduli};
 pub use residues::Residues;
 

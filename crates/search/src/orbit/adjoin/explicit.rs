@@ -1,18 +1,16 @@
 //! Equations of a Lagrangian system solved for independent accelerations: a field without constraints.
 
-use std::fmt::Write;
-
 use liouville::case::Case;
-use liouville::mechanics::{Chart, Lagrangian, ParameterOrigin, SamplerSpec, System};
+use liouville::formula::Formula;
+use liouville::mechanics::{Chart, Lagrangian, Model, SamplerSpec, System};
 
 use super::super::super::SearchError;
 use super::super::super::terms::recorded;
 use super::back::with_words;
 use super::equations::{ReadEquations, SolvedMotion};
 use super::parts::refined;
-use super::polynomial::RingPolynomial;
 use super::ring::{AdjoinedRing, Atom, Of};
-use super::write::{function_names, line, written};
+use super::write::{function_names, unused, with_parameters, written};
 
 /// Largest number of velocities.
 const MOST_VELOCITIES: usize = 10;
@@ -56,7 +54,10 @@ impl ExplicitField {
             let read = ReadEquations::of(&graph, &equations, [&constraints, &level], ring)?;
             read.solved(&velocities, ring)
         });
-        Ok(made.and_then(|(ring, motion)| Self::written(case, &ring, motion)))
+        match made {
+            Some((ring, motion)) => Self::written(case, &ring, motion),
+            None => Ok(None),
+        }
     }
 
     /// Writes a text of the field in the names of the case.
@@ -67,50 +68,39 @@ impl ExplicitField {
         })
     }
 
-    fn written(case: &Case, ring: &AdjoinedRing, motion: SolvedMotion) -> Option<Self> {
+    fn written(
+        case: &Case,
+        ring: &AdjoinedRing,
+        motion: SolvedMotion,
+    ) -> Result<Option<Self>, SearchError> {
         let model = &case.model;
-        let (parameters, dimension) = (model.free_components(), model.dimension());
+        let parameters = model.free_components();
         let is_function = |atom: &Atom| matches!(atom, Atom::Constant(Of::Function(..)));
         if ring.atoms.iter().any(is_function) {
-            return None;
+            return Ok(None);
         }
-        let own = model
-            .free_parameters()
-            .flat_map(|own| (0..own.kind.size()).map(|place| own.kind.component(&own.name, place)));
-        let mut given: Vec<String> = own.collect();
-        let mut renamed = Vec::new();
-        for component in 0..dimension {
-            let name = model.component_name(component);
+        let mut given = model.parameter_names();
+        let (prefix, mut renamed) = (unused(PREFIX, case), Vec::new());
+        for (component, name) in model.state_names().into_iter().enumerate() {
             let is_plain = name.chars().all(char::is_alphanumeric);
-            let new = if is_plain { name.clone() } else { format!("{PREFIX}{component}") };
+            let new = if is_plain { name.clone() } else { format!("{prefix}{component}") };
             if new != name {
                 renamed.push((new.clone(), name));
             }
             given.push(new);
         }
         let names = function_names(ring, &given);
-        let mut text = "title = \"explicit field\"\nsystem = \"field\"\n[parameters]\n".to_string();
-        for own in model.free_parameters() {
-            let ParameterOrigin::Free(recipe) = &own.origin else { return None };
-            line(&mut text, &own.name, &recipe.text());
+        let mut field = with_parameters(Model::field().title("explicit field"), model);
+        for (place, rate) in &motion.rates {
+            let Some(draw) = case.free_draws.get(*place) else { return Ok(None) };
+            let (name, range) = (&names[parameters + place], SamplerSpec::Scalar(draw.clone()));
+            field = field.state(name, range, written(rate, &names));
         }
-        text.push_str("[state]\n");
-        let state = |place: usize| &names[parameters + place];
-        for (place, _) in &motion.rates {
-            let range = SamplerSpec::Scalar(case.free_draws.get(*place)?.clone());
-            line(&mut text, state(*place), &range.text());
+        for equation in &motion.level {
+            field = field.level(written(equation, &names), Formula::number(0));
         }
-        text.push_str("[field]\n");
-        for (place, rate) in motion.rates.iter().filter(|(place, _)| state(*place) != "t") {
-            line(&mut text, &format!("{}'", state(*place)), &written(rate, &names));
-        }
-        if !motion.level.is_empty() {
-            let equation = |own: &RingPolynomial| format!("\"{} = 0\"", written(own, &names));
-            let all: Vec<String> = motion.level.iter().map(equation).collect();
-            let _ = writeln!(text, "[level]\nequations = [{}]", all.join(", "));
-        }
-        let made = Case::parse(&text, &[]).ok()?;
-        Some(Self { case: made, is_whole: motion.is_whole, renamed })
+        let case = field.build().map_err(SearchError::Unbuilt)?;
+        Ok(Some(Self { case, is_whole: motion.is_whole, renamed }))
     }
 }
 

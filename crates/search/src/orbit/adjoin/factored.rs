@@ -5,8 +5,9 @@ use liouville::formula::Formula;
 use liouville::proof::Polynomial;
 
 use super::super::super::SearchError;
+use super::super::cleared::input_names;
 use super::derivations::scale;
-use super::plain::{names, polynomials};
+use super::plain::polynomials;
 use super::polynomial::{Monomial, RingPolynomial};
 use super::write;
 
@@ -36,7 +37,7 @@ pub fn polynomial_factors(
             .map(|(_, power)| power)
             .sum()
     };
-    let names = names(case);
+    let names = input_names(case);
     let mut found = Vec::new();
     for factor in made.factors() {
         let mut ring = RingPolynomial::default();

@@ -1,9 +1,7 @@
 //! Maps x_i → c_i Π x_j^(a_ij), which are affine in the logarithms of the state.
 
-use std::fmt::Write;
-
 use liouville::case::Case;
-use liouville::mechanics::System;
+use liouville::mechanics::{Draw, Model, Range, SamplerSpec, System};
 use liouville::number::rational::Rational;
 
 use super::super::super::SearchError;
@@ -47,49 +45,41 @@ impl MonomialMap {
         let parted = images.iter().map(|own| ring.parted_monomial(own, parameters, dimension));
         let Some(parted) = parted.collect::<Option<Vec<_>>>() else { return Ok(None) };
         let names = RingNames::of(case, &ring).original;
-        Ok(Self::written(&parted, &names, (parameters, dimension)))
+        Ok(Some(Self::written(&parted, &names, (parameters, dimension))?))
     }
 
     fn written(
         images: &[(RingPolynomial, Vec<RingPolynomial>)],
         names: &[String],
         (parameters, dimension): (usize, usize),
-    ) -> Option<Self> {
+    ) -> Result<Self, SearchError> {
         let one = RingPolynomial::constant(Rational::from(1));
         let coefficients: Vec<Option<String>> =
             images.iter().map(|(own, _)| (*own != one).then(|| written(own, names))).collect();
-        let mut text = "title = \"logarithms\"\nsystem = \"map\"\n[parameters]\n".to_string();
-        let mut line = |name: &str, value: &str| {
-            let _ = writeln!(text, "\"{name}\" = \"{value}\"");
-        };
+        let range = || SamplerSpec::Scalar(Draw::Within(Range::between((1, 2), (1, 1))));
         // A name with an index stands for the components of vectors and matrices.
         let own = |k: usize| format!("own{k}");
-        (0..parameters).for_each(|k| line(&own(k), "0.5..1"));
-        for k in (0..dimension).filter(|k| coefficients[*k].is_some()) {
-            line(&format!("{}{k}", NAMES[1]), "0.5..1");
+        let shift = |k: usize| coefficients[k].as_ref().map(|_| format!("{}{k}", NAMES[1]));
+        let mut map = Model::map().title("logarithms");
+        for name in (0..parameters).map(own).chain((0..dimension).filter_map(shift)) {
+            map = map.parameter(&name, range());
         }
-        text.push_str("[state]\n");
         let logarithm = |k: usize| format!("{}{k}", NAMES[0]);
-        for k in 0..dimension {
-            let _ = writeln!(text, "{} = \"0.5..1\"", logarithm(k));
-        }
-        text.push_str("[map]\n");
         let inner: Vec<String> = (0..names.len()).map(own).collect();
         for (k, (_, exponents)) in images.iter().enumerate() {
             let terms = exponents.iter().enumerate().filter(|(_, own)| !own.is_zero());
             let terms =
                 terms.map(|(j, own)| format!("({})*{}", written(own, &inner), logarithm(j)));
-            let shift = coefficients[k].as_ref().map(|_| format!("{}{k}", NAMES[1]));
-            let all: Vec<String> = terms.chain(shift).collect();
+            let all: Vec<String> = terms.chain(shift(k)).collect();
             let sum = if all.is_empty() { "0".to_string() } else { all.join(" + ") };
-            let _ = writeln!(text, "{} = \"{sum}\"", logarithm(k));
+            map = map.state(&logarithm(k), range(), sum.as_str());
         }
         let exponents = images
             .iter()
             .map(|(_, own)| own.iter().map(RingPolynomial::value).collect::<Option<Vec<_>>>());
         let exponents = exponents.collect();
-        let case = Case::parse(&text, &[]).ok()?;
-        Some(Self { case, exponents, coefficients })
+        let case = map.build().map_err(SearchError::Unbuilt)?;
+        Ok(Self { case, exponents, coefficients })
     }
 
     /// Writes a formula of the logarithms in the names of the map; `logarithms` are those of the state,

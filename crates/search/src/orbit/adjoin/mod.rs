@@ -54,9 +54,9 @@ mod roots;
 mod share;
 mod write;
 
-pub use self::write::written as polynomial_text;
+pub use self::write::{with_parameters, written as polynomial_text};
 
-use liouville::case::Case;
+use liouville::case::{Case, ModelBuilder};
 use liouville::formula::Formula;
 use liouville::graph::Expr;
 use liouville::mechanics::calculus::DualPoint;
@@ -117,8 +117,8 @@ pub struct Extension {
     leading: Vec<Monomial>,
     /// Names of inverses.
     inverses: Vec<String>,
-    /// Text of the extended field without its level.
-    field: String,
+    /// The extended field without its level.
+    field: ModelBuilder,
     /// Names of the variables of the ring in the extended case.
     names: Vec<String>,
     /// Whether the case itself has a level.
@@ -155,12 +155,13 @@ impl Extension {
 
     /// The extended field without the relations between its functions; `None` if these are exponentials
     /// and denominators alone.
-    pub fn unbound(&self) -> Option<Case> {
+    pub fn unbound(&self) -> Result<Option<Case>, SearchError> {
         let is_free = |atom: &Atom| matches!(atom, Atom::Exponential(_) | Atom::Inverse(..));
         let is_bound =
             |atom: &Atom| !is_constant(atom) && !is_free(atom) && !matches!(atom, Atom::State);
         let is_unbound = self.ring.atoms.iter().any(is_bound);
-        is_unbound.then(|| Case::parse(&self.field, &[]).ok()).flatten()
+        let built = is_unbound.then(|| self.field.clone().build()).transpose();
+        built.map_err(SearchError::Unbuilt)
     }
 
     /// The relations between the functions of a case without a level, if they are circles and hyperbolas
@@ -285,8 +286,10 @@ fn written(case: &Case, read: Read, seed: u64) -> Result<Option<Extension>, Sear
     let names = RingNames::of(case, ring);
     let ReadParts { field, divergence, known, level, further, functions_of_field, .. } = read.parts;
     let Some(rates) = ring.rates(&field) else { return Ok(None) };
-    let Some(text) = write::case(case, ring, (&rates, &level), &names) else { return Ok(None) };
-    let Ok(extended) = Case::parse(&text.concat(), &[]) else { return Ok(None) };
+    let Some((field, whole)) = write::case(case, ring, (&rates, &level), &names) else {
+        return Ok(None);
+    };
+    let extended = whole.build().map_err(SearchError::Unbuilt)?;
     let formula =
         |own: &RingPolynomial| extended.formula(&write::written(own, &names.extended)).ok();
     let Some(divergence) = formula(&divergence) else { return Ok(None) };
@@ -317,7 +320,7 @@ fn written(case: &Case, read: Read, seed: u64) -> Result<Option<Extension>, Sear
         back: Back::of(ring, &names),
         exponentials: exponentials.collect(),
         case: extended,
-        field: text.into_iter().next().unwrap_or_default(),
+        field,
         read: known,
         names: names.extended,
         has_level: !case.model.level.is_empty(),
@@ -348,9 +351,8 @@ fn is_constant(atom: &Atom) -> bool {
 
 /// Whether some component of the state has a name that a variable of a field cannot have, as x'.
 fn names_are_foreign(case: &Case) -> bool {
-    let model = &case.model;
     let is_plain = |name: &str| name.chars().all(char::is_alphanumeric);
-    (0..model.dimension()).any(|k| !is_plain(&model.component_name(k)))
+    case.model.state_names().iter().any(|name| !is_plain(name))
 }
 
 /// Arguments of sines and cosines.

@@ -7,6 +7,7 @@ use liouville::number::rational::Rational;
 
 use super::super::super::SearchError;
 use super::super::super::terms::recorded;
+use super::super::cleared::input_names;
 use super::functions;
 use super::polynomial::{Monomial, RingPolynomial};
 use super::read::StepReader;
@@ -80,7 +81,7 @@ pub fn reduced(
     if own == *first {
         return Ok(None);
     }
-    Ok(case.formula(&write::written(&own, &names(case))).ok())
+    Ok(case.formula(&write::written(&own, &input_names(case))).ok())
 }
 
 /// Reads formulas as polynomials in the free parameters and the state: each as `None` if it is none, and all if
@@ -102,14 +103,4 @@ pub(super) fn polynomials(
         made.variables().iter().all(|k| *k < parameters + dimension).then_some(made)
     };
     Ok(Some(values.iter().map(&mut read).collect()))
-}
-
-/// Names of the free parameters and of the state, component by component.
-pub(super) fn names(case: &Case) -> Vec<String> {
-    let model = &case.model;
-    let parameters = model
-        .free_parameters()
-        .flat_map(|own| (0..own.kind.size()).map(|place| own.kind.component(&own.name, place)));
-    let state = (0..model.dimension()).map(|k| model.component_name(k));
-    parameters.chain(state).collect()
 }

@@ -18,7 +18,7 @@ use super::{Effort, SearchError, absence};
 pub fn root_steps(case: &Case) -> Result<usize, SearchError> {
     let (graph, field) = recorded(case, |jet| jet.phase.field().to_vec())?;
     let reached = graph.reached(field);
-    let steps = graph.steps().enumerate().filter(|(place, _)| reached[*place]);
+    let steps = graph.steps_at(&reached);
     let is_root = |step: &Step<'_>| match step {
         Step::Unary(function, _) => matches!(function, UnaryFunction::Sqrt | UnaryFunction::Abs),
         Step::Power(_, exponent) => exponent.to_integer().is_none(),

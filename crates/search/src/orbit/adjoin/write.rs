@@ -1,12 +1,11 @@
-//! The extended field as the text of a case.
+//! The extended field as a case.
 
-use std::fmt::Write;
-
-use liouville::case::Case;
-use liouville::formula::exponent_text;
-use liouville::mechanics::{Draw, Model, SamplerSpec};
+use liouville::case::{Case, ModelBuilder};
+use liouville::formula::{Formula, exponent_text};
+use liouville::mechanics::{Draw, Model, ParameterOrigin, Range, SamplerSpec};
 use liouville::number::rational::Rational;
 
+use super::super::cleared::input_names;
 use super::names_are_foreign;
 use super::parsed::is_name;
 use super::polynomial::RingPolynomial;
@@ -14,8 +13,8 @@ use super::ring::{AdjoinedRing, Atom, ConstantFunction, Of};
 
 /// Beginning of the names of adjoined functions.
 const PREFIX: &str = "aux";
-/// Range of free inputs of the chart.
-const RANGE: &str = "0.25..0.75";
+/// Range of adjoined functions, and of free inputs of the chart.
+const RANGE: [(i64, i64); 2] = [(1, 4), (3, 4)];
 
 /// Names of the variables of a ring.
 pub struct RingNames {
@@ -28,18 +27,14 @@ pub struct RingNames {
 impl RingNames {
     /// Names all variables of a ring.
     pub fn of(case: &Case, ring: &AdjoinedRing) -> Self {
-        let model = &case.model;
-        let parameters = model
-            .free_parameters()
-            .flat_map(|own| (0..own.kind.size()).map(|place| own.kind.component(&own.name, place)));
-        let state = (0..model.dimension()).map(|k| model.component_name(k));
-        let mut given = parameters.chain(state);
+        let mut given = input_names(case).into_iter();
+        let prefix = unused(PREFIX, case);
         let is_foreign = names_are_foreign(case);
         let mut names = Self { extended: Vec::new(), original: Vec::new() };
         for (place, atom) in ring.atoms.iter().enumerate() {
             let (extended, original) = match atom {
                 Atom::State if is_foreign => {
-                    (format!("{PREFIX}{place}"), given.next().unwrap_or_default())
+                    (format!("{prefix}{place}"), given.next().unwrap_or_default())
                 }
                 Atom::Parameter | Atom::State => {
                     let name = given.next().unwrap_or_default();
@@ -48,13 +43,25 @@ impl RingNames {
                 Atom::Constant(Of::Inverse(_) | Of::Root(_)) => {
                     (defined(ring, atom, &names.extended), defined(ring, atom, &names.original))
                 }
-                _ => (format!("{PREFIX}{place}"), defined(ring, atom, &names.original)),
+                _ => (format!("{prefix}{place}"), defined(ring, atom, &names.original)),
             };
             names.extended.push(extended);
             names.original.push(original);
         }
         names
     }
+}
+
+/// The beginning of names that no name of a case contains: `aux`, or with further letters.
+pub fn unused(beginning: &str, case: &Case) -> String {
+    let is_taken = |own: &String| {
+        case.model.vocabulary.iter().any(|(_, entry)| entry.name.contains(own.as_str()))
+    };
+    let mut own = beginning.to_string();
+    while is_taken(&own) {
+        own.push('x');
+    }
+    own
 }
 
 /// Names of all variables of a ring, from those of the parameters and the state.
@@ -170,89 +177,82 @@ pub fn written(own: &RingPolynomial, names: &[String]) -> String {
     }
 }
 
-/// Writes the case whose state has the adjoined functions, and then their relations as a level set; that
-/// of the case comes before these, and then no chart is written.
+/// The field whose state has the adjoined functions, and the same with their relations as a level set, if
+/// there are any; that of the case comes before these, and then there is no chart.
 pub fn case(
     case: &Case,
     ring: &AdjoinedRing,
     (rates, own_level): (&[RingPolynomial], &[RingPolynomial]),
     names: &RingNames,
-) -> Option<[String; 2]> {
+) -> Option<(ModelBuilder, ModelBuilder)> {
     let model = &case.model;
     let names = &names.extended;
-    let mut text = "title = \"extended field\"\nsystem = \"field\"\n[parameters]\n".to_string();
-    for own in model.free_parameters() {
-        let liouville::mechanics::ParameterOrigin::Free(recipe) = &own.origin else { return None };
-        line(&mut text, &own.name, &recipe.text());
-    }
+    let mut field = with_parameters(Model::field().title("extended field"), model);
+    let range = || SamplerSpec::Scalar(Draw::Within(Range::between(RANGE[0], RANGE[1])));
     for (place, atom) in ring.atoms.iter().enumerate() {
         if let Atom::Constant(Of::Function(..)) = atom {
-            line(&mut text, &names[place], RANGE);
+            field = field.parameter(&names[place], range());
         }
     }
-    text.push_str("[state]\n");
     let is_foreign = names_are_foreign(case);
     let first = ring.atoms.iter().position(|atom| matches!(atom, Atom::State))?;
     let ranges = match is_foreign {
         true => {
             let own = names[first..].iter().zip(&case.free_draws);
-            own.map(|(name, draw)| (name.clone(), SamplerSpec::Scalar(draw.clone()).text()))
-                .collect()
+            own.map(|(name, draw)| (name.clone(), SamplerSpec::Scalar(draw.clone()))).collect()
         }
         false => ranges(model, &case.free_draws)?,
     };
-    ranges.iter().for_each(|(name, range)| line(&mut text, name, range));
+    for (name, range) in &ranges {
+        field = field.variable(name, range.clone());
+    }
     let adjoined = |atom: &Atom| !matches!(atom, Atom::Parameter | Atom::State | Atom::Constant(_));
     let own: Vec<usize> =
         (0..ring.atoms.len()).filter(|place| adjoined(&ring.atoms[*place])).collect();
-    own.iter().for_each(|place| line(&mut text, &names[*place], RANGE));
-    text.push_str("[field]\n");
+    for place in &own {
+        field = field.variable(&names[*place], range());
+    }
     for k in (first..first + model.dimension()).filter(|_| is_foreign) {
-        line(&mut text, &format!("{}'", names[k]), &written(&rates[k], names));
+        field = field.rate(&names[k], written(&rates[k], names));
     }
     let mut component = first;
     for variable in model.state.iter().filter(|_| !is_foreign) {
         let parts: Vec<String> =
             (component..component + variable.len()).map(|k| written(&rates[k], names)).collect();
         component += variable.len();
-        if variable.name != "t" {
-            let rate = variable.kind.listed(&parts, ["[", ", ", "]"]);
-            line(&mut text, &format!("{}'", variable.name), &rate);
-        }
+        let rate = variable.kind.listed(&parts, ["[", ", ", "]"]);
+        field = field.rate(&variable.name, rate);
     }
     for place in &own {
-        line(&mut text, &format!("{}'", names[*place]), &written(&rates[*place], names));
+        field = field.rate(&names[*place], written(&rates[*place], names));
     }
     let mut level = FunctionChart::default();
     own.iter().for_each(|place| level.add(*place, &ring.atoms[*place], names));
-    let of_case = own_level.iter().map(|own| format!("{} = 0", written(own, names)));
-    let equations: Vec<String> =
-        of_case.chain(level.equations.iter().cloned()).map(|own| format!("\"{own}\"")).collect();
-    let mut relations = String::new();
-    if equations.is_empty() {
-        return Some([text, relations]);
+    let mut whole = field.clone();
+    for own in own_level {
+        whole = whole.level(written(own, names), Formula::number(0));
     }
-    let free = level.inputs.iter().map(|name| (name.clone(), RANGE.to_string()));
-    let inputs: Vec<String> = ranges
-        .into_iter()
-        .chain(free)
-        .map(|(name, own)| format!("\"{name}\" = \"{own}\""))
-        .collect();
-    let _ = writeln!(relations, "[level]\nequations = [{}]", equations.join(", "));
-    if own_level.is_empty() {
-        let _ = writeln!(relations, "[level.chart]\ninputs = {{ {} }}", inputs.join(", "));
-        level.chart.iter().for_each(|(name, own)| line(&mut relations, name, own));
+    let has_level = !own_level.is_empty() || !level.equations.is_empty();
+    for (left, right) in &level.equations {
+        whole = whole.level(left.as_str(), right.as_str());
     }
-    Some([text, relations])
+    if own_level.is_empty() && has_level {
+        let free = level.inputs.into_iter().map(|name| (name, range()));
+        whole = whole.chart(ranges.into_iter().chain(free), level.chart);
+    }
+    Some((field, whole))
 }
 
-/// Adds a line of a table.
-pub fn line(text: &mut String, name: &str, value: &str) {
-    let _ = writeln!(text, "\"{name}\" = \"{value}\"");
+/// Declares the free parameters of a model.
+pub fn with_parameters(builder: ModelBuilder, model: &Model) -> ModelBuilder {
+    model.parameters.iter().fold(builder, |builder, own| match &own.origin {
+        ParameterOrigin::Free(recipe) => builder.parameter(&own.name, recipe.clone()),
+        _ => builder,
+    })
 }
 
 /// Ranges of the variables of the state.
-fn ranges(model: &Model, draws: &[Draw]) -> Option<Vec<(String, String)>> {
+fn ranges(model: &Model, draws: &[Draw]) -> Option<Vec<(String, SamplerSpec)>> {
     let mut rest = draws.iter();
     let mut all = Vec::new();
     for variable in &model.state {
@@ -266,7 +266,7 @@ fn ranges(model: &Model, draws: &[Draw]) -> Option<Vec<(String, String)>> {
             Vector(length) => SamplerSpec::Vector(length, draw),
             Matrix(rows, columns) => SamplerSpec::Matrix(rows, columns, draw),
         };
-        all.push((variable.name.clone(), recipe.text()));
+        all.push((variable.name.clone(), recipe));
     }
     Some(all)
 }
@@ -274,7 +274,7 @@ fn ranges(model: &Model, draws: &[Draw]) -> Option<Vec<(String, String)>> {
 /// Relations between the functions, and a chart that solves them.
 #[derive(Default)]
 struct FunctionChart {
-    equations: Vec<String>,
+    equations: Vec<(String, String)>,
     inputs: Vec<String>,
     chart: Vec<(String, String)>,
 }
@@ -282,14 +282,15 @@ struct FunctionChart {
 impl FunctionChart {
     fn add(&mut self, place: usize, atom: &Atom, names: &[String]) {
         let name = names[place].clone();
-        let mut relation = |equation: String, value: String| {
-            self.equations.push(equation);
+        let mut relation = |left: String, right: String, value: String| {
+            self.equations.push((left, right));
             self.chart.push((name.clone(), value));
         };
         match atom {
             Atom::Sine(_) => {
-                let (angle, cosine) = (format!("arc{place}"), &names[place + 1]);
-                relation(format!("{name}² + {cosine}² = 1"), format!("2*{angle}/(1 + {angle}²)"));
+                let (angle, cosine) = (format!("arc{name}"), &names[place + 1]);
+                let value = format!("2*{angle}/(1 + {angle}²)");
+                relation(format!("{name}² + {cosine}²"), "1".to_string(), value);
                 let value = format!("(1 − {angle}²)/(1 + {angle}²)");
                 self.chart.push((cosine.clone(), value));
                 self.inputs.push(angle);
@@ -301,15 +302,15 @@ impl FunctionChart {
                     2 => format!("√({base})"),
                     n => format!("({base})^(1/{n})"),
                 };
-                relation(format!("{name}^{order} = {base}"), value);
+                relation(format!("{name}^{order}"), base, value);
             }
             Atom::Inverse(base, 1) => {
                 let base = written(base, names);
-                relation(format!("{name}*({base}) = 1"), format!("1/({base})"));
+                relation(format!("{name}*({base})"), "1".to_string(), format!("1/({base})"));
             }
             Atom::Inverse(..) => {
                 let root = &names[place - 1];
-                relation(format!("{name}*{root} = 1"), format!("1/{root}"));
+                relation(format!("{name}*{root}"), "1".to_string(), format!("1/{root}"));
             }
             Atom::ExponentialOf(_, powers) => {
                 let part = |sign: i64| {
@@ -322,7 +323,8 @@ impl FunctionChart {
                     written(&own, names)
                 };
                 let (above, below) = (part(1), part(-1));
-                relation(format!("{name}*{below} = {above}"), format!("{above}/({below})"));
+                let value = format!("{above}/({below})");
+                relation(format!("{name}*{below}"), above, value);
             }
             _ => self.inputs.push(name),
         }

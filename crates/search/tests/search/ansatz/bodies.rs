@@ -1,7 +1,7 @@
 //! Invariants of textbook bodies, found without any option.
 
 use liouville::verdict::Verdict;
-use liouville_search::{Ansatz, Effort, SearchReport, search};
+use liouville_search::{Ansatz, Effort, FoundKind, SearchReport, search};
 
 use super::{case, effort};
 
@@ -16,7 +16,7 @@ fn the_integrals_of_a_ball_with_its_centre_of_mass_on_its_axis_are_all() {
                 I = 'axisymmetric(0.5..5)'\nc = [0, 0, 0.3]\na_g = '1..10'\n[body]\nshape = 'ball'\n\
                 potential = 'm*a_g*h'\n";
     let report = of(text, 2);
-    let integrals: Vec<&str> = report.formulas("integral").collect();
+    let integrals: Vec<&str> = report.formulas(FoundKind::Integral).collect();
     assert!(integrals.contains(&"(I*ω,r)"), "{integrals:?}");
     assert_eq!(integrals.len(), 2, "{integrals:?}");
     assert!(report.found.iter().all(|own| own.verdict == Verdict::Proved), "{:?}", report.found);
@@ -32,8 +32,8 @@ fn invariants_with_a_free_tensor_of_inertia_are_found() {
                 kinetic = '(w,I*w)/2'\nquasi-velocities = ['w']\nalgebra = 'so(3)'\n\
                 constraints = ['(w,g) = 0']\n[level]\nequations = ['(g,g) = 1']\n";
     let report = of(text, 2);
-    let has = |kind: &str| report.functions(kind).count() == 1;
-    assert!(has("integral") && has("density"), "{:?}", report.found);
+    let has = |kind: FoundKind| report.functions(kind).count() == 1;
+    assert!(has(FoundKind::Integral) && has(FoundKind::Density), "{:?}", report.found);
     assert!(report.found.iter().all(|own| own.verdict == Verdict::Proved), "{:?}", report.found);
 }
 
@@ -73,7 +73,7 @@ fn integrals_are_found_without_terms() {
         let ansatz = Ansatz { wanted: true, positions, ..Ansatz::default() };
         let effort = Effort { blind: true, ansatz, ..effort(2) };
         let report = search(&case(&text), &effort, &mut |_| {}).expect("it can be searched");
-        let found: Vec<&str> = report.formulas("integral").collect();
+        let found: Vec<&str> = report.formulas(FoundKind::Integral).collect();
         assert_eq!(found.len(), 1, "{text}: {found:?} {:?} {:?}", report.remarks, report.excluded);
         let is_proved = report.found.iter().all(|own| own.verdict == Verdict::Proved);
         assert!(is_proved, "{text}");

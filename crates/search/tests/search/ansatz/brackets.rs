@@ -1,18 +1,24 @@
 //! Poisson brackets: found, excluded, mended; on levels, and with multipliers of time.
 
 use liouville::verdict::Verdict;
-use liouville_search::{Effort, Hamiltonians, SearchReport, search};
+use liouville_search::{Effort, FoundKind, Hamiltonians, SearchReport, search};
 
 use crate::ansatz::{case, effort};
+
+/// What belongs to the finds, with its kinds.
+fn with(report: &SearchReport) -> Vec<(&str, &str)> {
+    let all = report.found.iter().flat_map(|found| &found.with);
+    all.map(|own| (own.name(), own.text())).collect()
+}
 
 /// Searches a field of two or more variables for brackets; returns the report and the brackets.
 fn bracketed(body: &str, hamiltonians: Hamiltonians) -> (SearchReport, Vec<String>) {
     let wanted = Effort { poisson: Some(hamiltonians), ..effort(0) };
     let case = case(&format!("title = 'x'\nsystem = 'field'\ncheck-weights = false\n{body}"));
     let report = search(&case, &wanted, &mut |_| {}).expect("it can be searched");
-    let own = report.found.iter().filter(|found| found.kind == "bracket");
+    let own = report.found.iter().filter(|found| found.kind == FoundKind::Bracket);
     assert!(own.clone().all(|found| found.verdict == Verdict::Proved), "{:?}", report.found);
-    let texts = own.map(|found| found.formula.clone()).collect();
+    let texts = own.map(|found| found.text().to_string()).collect();
     (report, texts)
 }
 
@@ -23,8 +29,8 @@ fn a_top_has_two_brackets() {
                [[claim]]\nintegral = '(M,M)/2'\n";
     let (report, brackets) = bracketed(top, Hamiltonians::Given("(a*M1²+b*M2²+c*M3²)/2".into()));
     assert_eq!(brackets, ["{M1,M2} = −M3, {M1,M3} = M2, {M2,M3} = −M1"]);
-    let with: Vec<_> = report.found.iter().flat_map(|found| &found.with).collect();
-    assert!(with.contains(&&("Casimir", "(M,M)/2".to_string())), "{with:?}");
+    let with = with(&report);
+    assert!(with.contains(&("Casimir", "(M,M)/2")), "{with:?}");
     // The integrals change places: the coefficients are parameters, up to multiples of hat(M).
     let (_, brackets) = bracketed(top, Hamiltonians::Given("(M,M)/2".into()));
     assert_eq!(brackets, ["{M1,M3} = −b*M2 + c*M2, {M2,M3} = a*M1 − c*M1"]);
@@ -108,9 +114,9 @@ fn diracs_bracket_is_found_on_a_level() {
         let [own] = &brackets[..] else { panic!("one bracket: {brackets:?} {:?}", report.remarks) };
         assert!(own.starts_with("{q1,p1} = 1 − q1², {q1,p2} = −q1*q2"), "{own}");
         assert!(own.ends_with("{p2,p3} = −q2*p3 + q3*p2"), "{own}");
-        let with: Vec<_> = report.found.iter().flat_map(|found| &found.with).collect();
+        let with = with(&report);
         for casimir in ["(q,q)", "(q,p)"] {
-            assert!(with.contains(&&("Casimir", casimir.to_string())), "{with:?}");
+            assert!(with.contains(&("Casimir", casimir)), "{with:?}");
         }
     }
 }
@@ -139,10 +145,10 @@ fn chaplygins_ball_is_hamiltonian_in_another_time() {
     let energy = "(M,A*M)/2 + D*(A*M,γ)²/(2*X)";
     let (report, brackets) = bracketed(ball, Hamiltonians::Given(energy.into()));
     assert_eq!(brackets.len(), 1, "{:?} {:?}", report.remarks, report.excluded);
-    let with: Vec<_> = report.found.iter().flat_map(|found| &found.with).collect();
+    let with = with(&report);
     let multiplier = with.iter().find(|(what, _)| *what == "multiplier").expect("a multiplier");
     assert!(multiplier.1.ends_with("^(1/2)") && multiplier.1.starts_with("1/"), "{multiplier:?}");
-    assert!(with.contains(&&("Casimir", "(M,γ)".to_string())), "{with:?}");
+    assert!(with.contains(&("Casimir", "(M,γ)")), "{with:?}");
 }
 
 #[test]
@@ -150,7 +156,7 @@ fn a_denominator_of_the_field_is_one_of_the_bracket() {
     let body = "[state]\nx = '1..2'\ny = '1..2'\n[field]\nx = 'y/(1 + x²)'\ny = '−x/(1 + x²)'\n";
     let (report, brackets) = bracketed(body, Hamiltonians::Given("(x² + y²)/2".into()));
     assert_eq!(brackets, ["{x,y} = 1/(1 + x²)"]);
-    let with: Vec<_> = report.found.iter().flat_map(|found| &found.with).collect();
+    let with = with(&report);
     assert!(with.iter().all(|(what, _)| *what != "multiplier"), "{with:?}");
 }
 
@@ -166,8 +172,9 @@ fn the_energy_of_a_lagrangian_is_a_known_hamiltonian() {
     };
     for claim in ["energy", "a'²/2 − cos(a)"] {
         let report = pendulum(claim);
-        let brackets: Vec<_> = report.found.iter().filter(|own| own.kind == "bracket").collect();
+        let brackets: Vec<_> =
+            report.found.iter().filter(|own| own.kind == FoundKind::Bracket).collect();
         assert_eq!(brackets.len(), 1, "{claim}: {:?}", report.remarks);
-        assert_eq!(brackets[0].formula, "{a,a'} = 1", "{claim}");
+        assert_eq!(brackets[0].text(), "{a,a'} = 1", "{claim}");
     }
 }

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use liouville::case::Case;
-use liouville_search::{ConditionTarget, Effort, ParameterCondition, SearchReport, search};
+use liouville_search::{ConditionTarget, Effort, Given, ParameterCondition, SearchReport, search};
 
 use crate::ansatz::{case, effort, searched};
 
@@ -189,15 +189,15 @@ fn integrals_are_found_at_values_that_belong_to_no_curve() {
     wanted.conditions = Some(ConditionTarget::Existence);
     let rates = ["y + (a - 2)*x² + (b - 3)*y", "-x + (a*b - 6)*x*y² + (a - 2)*y"];
     let report = search(&with_claim(rates, "x"), &wanted, &mut |_| {}).expect("searched");
-    let with = ("condition", "a = 2 and b = 3".to_string());
+    let with = Given::Condition("a = 2 and b = 3".to_string());
     let found = |formula: &str| {
-        report.found.iter().any(|own| own.formula == formula && own.with.contains(&with))
+        report.found.iter().any(|own| own.text() == formula && own.with.contains(&with))
     };
     assert!(found("x² + y²"), "{:?}", report.found);
     let told = |text: &str| report.remarks.iter().any(|own| own.contains(text));
     assert!(told("no other real values of the parameters give more integrals of degree at most 2"));
     let equations: Vec<&String> = of_integrals(&report).flat_map(|own| &own.equations).collect();
-    assert!(equations.contains(&&with.1), "{equations:?}");
+    assert!(equations.contains(&&with.text().to_string()), "{equations:?}");
     assert!(equations.iter().all(|own| own.contains(" and ")), "{equations:?}");
 }
 
@@ -295,8 +295,8 @@ fn integrals_are_found_at_real_zeros_of_sums_of_squares() {
     };
     let (equations, report) = told(["((a - 1)² + (b - 2)²)*(1 - x*y)", "y² + x"]);
     assert_eq!(equations, ["a = 1 and b = 2"]);
-    let with = ("condition", "a = 1 and b = 2".to_string());
-    let is_found = report.found.iter().any(|own| own.formula == "x" && own.with.contains(&with));
+    let with = Given::Condition("a = 1 and b = 2".to_string());
+    let is_found = report.found.iter().any(|own| own.text() == "x" && own.with.contains(&with));
     assert!(is_found, "{:?}", report.found);
     assert!(report.conditions.iter().all(|own| !own.grounds.contains("may give more")));
     assert!(told(["(a² + b² + 1)*(1 - x*y)", "y² + x"]).0.is_empty());

@@ -2,7 +2,7 @@
 
 use liouville::claim::Claim;
 use liouville::verdict::{Options, Verdict};
-use liouville_search::{Effort, SearchReport, search};
+use liouville_search::{Effort, FoundKind, SearchReport, search};
 
 use super::{case, effort, searched, told};
 
@@ -76,7 +76,7 @@ fn magnetic_terms_of_canonical_equations_are_found() {
     assert_eq!(counted(&kepler, "x*q − y*p"), Some((2, 2)), "{:?}", kepler.excluded);
     assert_eq!(counted(&kepler, "y/√(x² + y²) + x*p*q − y*p²"), Some((0, 0)));
     let found = kepler.found.iter().find(|found| found.with.len() == 2).expect("it survives");
-    assert_eq!([found.with[0].0, found.with[1].0], ["gyroscopic term", "potential"]);
+    assert_eq!([found.with[0].name(), found.with[1].name()], ["gyroscopic term", "potential"]);
     // Its potential is needed: y*p is the constant field up to a gradient.
     let own = plane("(p² + q²)/2 - 1/√(x² + y²) + 2*y*p - 2*x²", "");
     assert_eq!(verdict(&own, "x*q - y*p + x² - y²"), Verdict::Proved);
@@ -92,7 +92,7 @@ fn magnetic_terms_of_canonical_equations_are_found() {
          function = '(p² + q² + r² + s²)/2 + (a² + b²)² + (c² + d²)²'\n\
          pairs = [['a','p'],['b','q'],['c','r'],['d','s']]\n",
     );
-    let energy = apart.functions("integral").find(|own| own.text().starts_with("p²"));
+    let energy = apart.functions(FoundKind::Integral).find(|own| own.text().starts_with("p²"));
     let energy = energy.expect("the energy of a and b").text().to_string();
     assert_eq!(counted(&apart, &energy), Some((2, 2)), "{:?}", apart.excluded);
     let generic = turned(&plane("(p² + q² + x² + y²)/2 + x²*y - y³/3", ""));
@@ -119,8 +119,8 @@ fn rotors_of_tops_are_found() {
     let clebsch = "(a*M1² + b*M2² + c*M3²)/2 - (b*c*γ1² + a*c*γ2² + a*b*γ3²)/2";
     let report = turned(&top(clebsch, e3));
     assert!(told(&report).contains(&area), "{:?}", told(&report));
-    let of_clebsch = report.found.iter().find(|found| found.formula.contains("γ1²"));
-    let integral = &of_clebsch.expect("Clebsch's integral").formula;
+    let of_clebsch = report.found.iter().find(|found| found.text().contains("γ1²"));
+    let integral = of_clebsch.expect("Clebsch's integral").text();
     assert_eq!(counted(&report, integral), Some((0, 0)), "{:?}", report.excluded);
     // Zhukovskii and Volterra: the square of the momentum survives each rotor.
     let euler = "title = 'x'\n[parameters]\na = '0.5..2'\nb = '0.5..2'\nc = '0.5..2'\n[state]\n\

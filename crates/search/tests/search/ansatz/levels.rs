@@ -1,6 +1,6 @@
 //! Symmetry fields on levels, terms in many variables, and what a theorem of an ansatz says.
 
-use liouville_search::{Ansatz, Effort};
+use liouville_search::{Ansatz, Effort, FoundKind};
 
 use super::{case, effort};
 use liouville_search::search;
@@ -8,7 +8,7 @@ use liouville_search::search;
 fn fields(text: &str) -> Vec<String> {
     let effort = Effort { by_class: false, by_factors: false, ..effort(1) };
     let report = search(&case(text), &effort, &mut |_| {}).expect("it can be searched");
-    report.formulas("symmetry-field").map(str::to_string).collect()
+    report.formulas(FoundKind::SymmetryField).map(str::to_string).collect()
 }
 
 #[test]
@@ -41,7 +41,7 @@ fn linear_integrals_of_many_bodies_are_found() {
                   'sum(i,1..n,p[i]^2/(2*m[i])) - sum(i,1..n-1,j,i+1..n,m[i]*m[j]/|q[i]-q[j]|)'\n\
                   pairs = [['q','p']]\n";
     let report = search(&case(bodies), &effort(1), &mut |_| {}).expect("it can be searched");
-    let found: Vec<&str> = report.formulas("integral").collect();
+    let found: Vec<&str> = report.formulas(FoundKind::Integral).collect();
     for k in 1..=3 {
         let momentum: Vec<String> = (1..=5).map(|i| format!("p[{i},{k}]")).collect();
         assert!(found.contains(&momentum.join(" + ").as_str()), "{found:?}");

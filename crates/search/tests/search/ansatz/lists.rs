@@ -1,7 +1,7 @@
 //! Parameters with a list of values: theorems and conditions for each of them.
 
 use liouville_search::{
-    Ansatz, ConditionTarget, Effort, Hamiltonians, Remark, SearchReport, search,
+    Ansatz, ConditionTarget, Effort, FoundKind, Given, Hamiltonians, Remark, SearchReport, search,
 };
 
 use crate::ansatz::{case, effort};
@@ -34,10 +34,11 @@ fn theorems_of_an_ansatz_hold_for_their_values() {
     // Of 1, x and x² all are integrals where a = 0.
     assert_eq!(dimensions(&report), [("For a = 1", 1), ("For a = 0", 3)]);
     let with = |text: &str| {
-        let found = report.found.iter().find(|own| own.kind == "integral" && own.formula == text);
+        let found =
+            report.found.iter().find(|own| own.kind == FoundKind::Integral && own.text() == text);
         found.map(|own| own.with.clone())
     };
-    assert_eq!(with("x"), Some(vec![("value", "a = 0".to_string())]), "{:?}", report.found);
+    assert_eq!(with("x"), Some(vec![Given::Value("a = 0".to_string())]), "{:?}", report.found);
     assert!(report.excluded.iter().all(|own| own.ansatz.contains(", for a = ")));
 
     let oscillators = "title = 'x'\n[parameters]\na = 'one of 4, 1'\n[state]\nx = '-2..2'\ny = '-2..2'\n\
@@ -89,9 +90,10 @@ fn brackets_are_excluded_for_their_values() {
     let theorems: Vec<&str> = all.filter(|own| own.contains("there is no skew P")).collect();
     assert_eq!(theorems.len(), 1, "{theorems:?}");
     assert!(theorems[0].starts_with("For a = 1, there is no skew P"), "{theorems:?}");
-    let bracket = report.found.iter().find(|own| own.kind == "bracket").expect("for a = 0");
-    assert_eq!(bracket.formula, "{x,y} = 1");
-    assert!(bracket.with.contains(&("value", "a = 0".to_string())), "{:?}", bracket.with);
+    let bracket =
+        report.found.iter().find(|own| own.kind == FoundKind::Bracket).expect("for a = 0");
+    assert_eq!(bracket.text(), "{x,y} = 1");
+    assert!(bracket.with.contains(&Given::Value("a = 0".to_string())), "{:?}", bracket.with);
 }
 
 #[test]
@@ -134,8 +136,8 @@ fn relations_along_orbits_are_told_for_each_value() {
     let field = "title = 'x'\n[parameters]\na = '1..2'\nb = 'one of 1, 0'\n[state]\nx = '-2..2'\n\
                  y = '-2..2'\n[field]\n\"x'\" = 'a*y'\n\"y'\" = '-x - b*y³'\n";
     let report = searched(field, &Effort { by_class: false, ..effort(0) });
-    let found = report.found.iter().find(|own| own.kind == "integral").expect("for b = 0");
-    assert_eq!(found.with, [("value", "b = 0".to_string())], "{found:?}");
+    let found = report.found.iter().find(|own| own.kind == FoundKind::Integral).expect("for b = 0");
+    assert_eq!(found.with, [Given::Value("b = 0".to_string())], "{found:?}");
     let counted = |text: &str| report.remarks.iter().any(|own| own.contains(text));
     assert!(counted("counted for b = 1, the first of its values"), "{:?}", report.remarks);
     let is_told =
@@ -177,7 +179,7 @@ fn conditions_of_a_field_are_those_of_each_value() {
     let with = |own: &liouville_search::Found| own.with.clone();
     let finds: Vec<_> = report.found.iter().map(with).collect();
     let value = |number: i64| {
-        vec![("condition", format!("a = {number}")), ("value", format!("k = {number}"))]
+        vec![Given::Condition(format!("a = {number}")), Given::Value(format!("k = {number}"))]
     };
     assert!(finds.contains(&value(1)) && finds.contains(&value(2)), "{finds:?}");
     // What does not depend on the value is told once.

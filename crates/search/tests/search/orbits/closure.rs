@@ -3,7 +3,7 @@
 use liouville::case::Case;
 use liouville::claim::Claim;
 use liouville::verdict::{Options, Verdict};
-use liouville_search::{Effort, SearchReport};
+use liouville_search::{Effort, FoundKind, SearchReport};
 
 use super::searched;
 
@@ -18,16 +18,16 @@ fn hamiltonian(parameters: &str, pairs: &[[&str; 2]], function: &str) -> String 
 
 /// Further integrals, each with words on how it comes from others.
 fn further(report: &SearchReport) -> Vec<(&str, &str)> {
-    let own = report.found.iter().filter(|found| found.kind == "further-integral");
-    own.map(|found| (found.formula.as_str(), found.with[0].0)).collect()
+    let own = report.found.iter().filter(|found| found.kind == FoundKind::FurtherIntegral);
+    own.map(|found| (found.text(), found.with[0].name())).collect()
 }
 
 /// Whether integrals are linearly independent of 1, of others and of their products by pairs.
 fn are_new(text: &str, report: &SearchReport) {
     let case = Case::parse(text, &[]).expect("a case");
-    let all: Vec<_> = report.functions("integral").cloned().collect();
-    let found = report.found.iter().filter(|found| found.kind == "further-integral");
-    for one in found.filter_map(|found| found.function.clone()) {
+    let all: Vec<_> = report.functions(FoundKind::Integral).cloned().collect();
+    let found = report.found.iter().filter(|found| found.kind == FoundKind::FurtherIntegral);
+    for one in found.filter_map(|found| found.function().cloned()) {
         let functions = all.iter().cloned().chain([one.clone()]).collect();
         let claims = [Claim::integral(&one), Claim::independent(functions)];
         let judged = case.judge(&claims, &Options::default()).expect("judged").claims;
@@ -42,12 +42,12 @@ const SPACE: [[&str; 2]; 3] = [["x", "p"], ["y", "q"], ["z", "r"]];
 fn laplaces_vector_is_found_as_a_whole() {
     let plane = hamiltonian("k = '1..2'", &PLANE, "(p² + q²)/2 - k/√(x² + y²)");
     let report = searched(&plane, &Effort::default());
-    assert_eq!(report.formulas("integral").count(), 2, "{:?}", report.found);
+    assert_eq!(report.formulas(FoundKind::Integral).count(), 2, "{:?}", report.found);
     assert_eq!(further(&report).len(), 1, "{:?}", report.found);
     are_new(&plane, &report);
     let space = hamiltonian("", &SPACE, "(p² + q² + r²)/2 - 1/√(x² + y² + z²)");
     let report = searched(&space, &Effort::default());
-    assert_eq!(report.formulas("integral").count(), 4, "{:?}", report.found);
+    assert_eq!(report.formulas(FoundKind::Integral).count(), 4, "{:?}", report.found);
     assert_eq!(further(&report).len(), 2, "{:?}", report.found);
     are_new(&space, &report);
 }
@@ -75,7 +75,11 @@ fn brackets_complete_the_algebra_of_an_oscillator() {
     // x² + p², y² + q², x y + p q and x q − y p.
     let text = hamiltonian("", &PLANE, "(p² + q² + x² + y²)/2");
     let report = searched(&text, &Effort::default());
-    assert_eq!(report.formulas("integral").count() + further(&report).len(), 3, "with the energy");
+    assert_eq!(
+        report.formulas(FoundKind::Integral).count() + further(&report).len(),
+        3,
+        "with the energy"
+    );
     are_new(&text, &report);
 }
 
@@ -83,12 +87,12 @@ fn brackets_complete_the_algebra_of_an_oscillator() {
 fn integrals_in_involution_have_no_further_ones() {
     let toda = hamiltonian("", &SPACE, "(p² + q² + r²)/2 + exp(x - y) + exp(y - z)");
     let report = searched(&toda, &Effort::default());
-    assert!(report.formulas("integral").count() >= 2, "{:?}", report.found);
+    assert!(report.formulas(FoundKind::Integral).count() >= 2, "{:?}", report.found);
     assert_eq!(further(&report), [], "{:?}", report.found);
     // Products, and functions of higher degree, are not told.
     let free = hamiltonian("", &PLANE, "(p² + q²)/2");
     let report = searched(&free, &Effort::default());
-    assert_eq!(report.formulas("integral").count(), 2, "{:?}", report.found);
+    assert_eq!(report.formulas(FoundKind::Integral).count(), 2, "{:?}", report.found);
     for (formula, _) in further(&report) {
         assert!(!formula.contains("p²") && !formula.contains("p*q"), "{formula}");
     }
@@ -102,7 +106,7 @@ fn a_bracket_that_the_field_does_not_keep_gives_nothing() {
     let report = searched(text, &Effort::default());
     are_new(text, &report);
     assert!(
-        report.formulas("integral").count() >= 3,
+        report.formulas(FoundKind::Integral).count() >= 3,
         "x + u, y + v and a ratio: {:?}",
         report.found
     );
@@ -116,5 +120,5 @@ fn a_function_of_one_integral_is_nothing_further() {
     let text = hamiltonian("", &PLANE, energy).replace("0.5..1", "0.1..0.5");
     let report = searched(&text, &Effort::default());
     assert!(further(&report).is_empty(), "{:?}", further(&report));
-    assert_eq!(report.formulas("integral").count(), 1, "{:?}", report.found);
+    assert_eq!(report.formulas(FoundKind::Integral).count(), 1, "{:?}", report.found);
 }

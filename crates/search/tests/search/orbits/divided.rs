@@ -1,6 +1,6 @@
 //! Darboux polynomials that are products of others, and fields with many roots.
 
-use liouville_search::Effort;
+use liouville_search::{Effort, FoundKind};
 
 use super::factors::cofactor;
 use super::{field, searched};
@@ -13,11 +13,11 @@ fn products_of_conjugates_are_divided() {
     for own in ["1 + y²", "9 + 32*y²"] {
         assert!(cofactor(&report, own).is_some(), "{own}: {:?}", report.found);
     }
-    assert!(report.found.iter().any(|own| own.kind == "integral"), "{:?}", report.found);
+    assert!(report.found.iter().any(|own| own.kind == FoundKind::Integral), "{:?}", report.found);
     let report = searched(&field("", &["1", "(y^2 + 1)*(y^2 + 2)"]), &Effort::default());
-    let rates = report.found.iter().filter(|own| own.kind == "function-of-constant-rate");
+    let rates = report.found.iter().filter(|own| own.kind == FoundKind::ConstantRate);
     assert!(
-        rates.into_iter().any(|own| own.formula.matches("atan").count() == 2),
+        rates.into_iter().any(|own| own.text().matches("atan").count() == 2),
         "{:?}",
         report.found
     );
@@ -39,7 +39,7 @@ fn three_bodies_in_space_have_their_integrals() {
                 v = 'matrix(n, 3, -1..1)'\n[field]\n\"q[i]'\" = 'v[i]'\n\
                 \"v[i]'\" = 'sum(j, 1..n, j ≠ i, m[j]*(q[j] - q[i])/|q[j] - q[i]|^3)'\n";
     let report = searched(text, &Effort::default());
-    let integrals = report.found.iter().filter(|own| own.kind == "integral");
+    let integrals = report.found.iter().filter(|own| own.kind == FoundKind::Integral);
     // Momenta, angular momenta, the energy, and two of the moments of the centre of mass.
     assert!(integrals.count() >= 7, "{:?}", report.found);
 }
@@ -52,8 +52,8 @@ fn an_integral_is_found_rather_than_its_square() {
     let integrals: Vec<&str> = report
         .found
         .iter()
-        .filter(|own| own.kind.contains("integral"))
-        .map(|own| own.formula.as_str())
+        .filter(|own| own.kind.name().contains("integral"))
+        .map(|own| own.text())
         .collect();
     assert_eq!(integrals, ["(I*w,w)", "(I*w,I*w)"]);
 }

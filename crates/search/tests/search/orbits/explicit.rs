@@ -1,6 +1,7 @@
 //! Lagrangian systems that are searched as fields of their positions and independent velocities.
 
 use super::{Effort, searched};
+use liouville_search::FoundKind;
 
 const TOP: &str = "
 title = 'a body with a fixed point'
@@ -24,13 +25,13 @@ fn effort(degree: u32) -> Effort {
 fn a_body_with_scalar_moments_keeps_its_angular_momentum() {
     let kinetic = "kinetic = '(A*w1² + B*w2² + C*w3²)/2'";
     let euler = searched(&format!("{TOP}{kinetic}"), &effort(2));
-    assert_eq!(euler.formulas("integral").count(), 1, "besides the energy");
+    assert_eq!(euler.formulas(FoundKind::Integral).count(), 1, "besides the energy");
     assert!(euler.excluded.iter().any(|own| own.theorem.contains("is a function of")));
     // Suslov's problem: constraints remove the third velocity.
     let kinetic = "kinetic = '(A*w1² + B*w2² + C*w3²)/2 + w1*w3/4 + w2*w3/5'";
     let text = format!("{TOP}{kinetic}\nconstraints = ['w3 = 0']");
     let suslov = searched(&text, &effort(2));
-    let density: Vec<&str> = suslov.formulas("density").collect();
+    let density: Vec<&str> = suslov.formulas(FoundKind::Density).collect();
     assert_eq!(density, ["1/(5*w1 + 4*w2)"]);
 }
 
@@ -56,7 +57,7 @@ algebra = 'so(3)'
 ";
     for level in ["", "[level]\nequations = ['(g,g) = 1']\n"] {
         let found = searched(&format!("{text}{level}"), &effort(2));
-        let all: Vec<&str> = found.formulas("integral").collect();
+        let all: Vec<&str> = found.formulas(FoundKind::Integral).collect();
         assert!(all.contains(&"A*w1*g1 + A*w2*g2 + C*w3*g3"), "{level}: {all:?}");
     }
 }
@@ -92,9 +93,9 @@ constraints = [
 ]
 ";
     let found = searched(text, &Effort { by_class: false, ..effort(1) });
-    assert_eq!(found.formulas("density").collect::<Vec<_>>(), ["sin(a)²"]);
+    assert_eq!(found.formulas(FoundKind::Density).collect::<Vec<_>>(), ["sin(a)²"]);
     let translations = ["x: 1", "y: 1", "c: 1"];
-    let symmetries: Vec<&str> = found.formulas("symmetry-field").collect();
+    let symmetries: Vec<&str> = found.formulas(FoundKind::SymmetryField).collect();
     assert!(translations.iter().all(|own| symmetries.contains(own)), "{symmetries:?}");
 }
 
@@ -113,6 +114,6 @@ surface = 'r1² + r2²'
 potential = 'm*g*r3'
 ";
     let found = searched(text, &effort(1));
-    let all: Vec<&str> = found.formulas("integral").collect();
+    let all: Vec<&str> = found.formulas(FoundKind::Integral).collect();
     assert!(all.contains(&"(μ + m*R²)*M1*r1 + (μ + m*R²)*M2*r2 + μ*M3*r3"), "{all:?}");
 }

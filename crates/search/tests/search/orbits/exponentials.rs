@@ -1,7 +1,7 @@
 //! Fields with exponentials in several forms, with functions of the parameters, and with relations between
 //! functions on which Darboux polynomials rest.
 
-use liouville_search::Effort;
+use liouville_search::{Effort, FoundKind};
 
 use super::factors::cofactor;
 use super::{field, searched};
@@ -19,7 +19,12 @@ fn powers_of_exponentials_and_of_numbers_are_exponentials() {
     ];
     for (parameters, rates) in fields {
         let report = searched(&field(parameters, &rates), &Effort::default());
-        assert_eq!(report.formulas("integral").count(), 1, "{rates:?}: {:?}", report.found);
+        assert_eq!(
+            report.formulas(FoundKind::Integral).count(),
+            1,
+            "{rates:?}: {:?}",
+            report.found
+        );
     }
 }
 
@@ -27,7 +32,7 @@ fn powers_of_exponentials_and_of_numbers_are_exponentials() {
 fn powers_with_variables_in_base_and_exponent_are_exponentials_of_logarithms() {
     // x^y is kept.
     let report = searched(&field("", &["-x*ln(x)*x^y", "y*x^y"]), &Effort::default());
-    assert_eq!(report.formulas("integral").count(), 1, "{:?}", report.found);
+    assert_eq!(report.formulas(FoundKind::Integral).count(), 1, "{:?}", report.found);
 }
 
 #[test]
@@ -74,7 +79,7 @@ fn darboux_polynomials_may_rest_on_other_relations() {
 #[test]
 fn exponentials_are_written_as_powers_of_their_bases() {
     let report = searched(&field("", &["y*exp(x)", "-2^x*exp(x)"]), &Effort::default());
-    let own = report.formulas("integral").next().unwrap_or_default();
+    let own = report.formulas(FoundKind::Integral).next().unwrap_or_default();
     assert!(own.contains("2^x") && !own.contains("exp"), "{own}");
 }
 
@@ -83,14 +88,15 @@ fn radicands_that_are_odd_powers_are_roots_of_these() {
     let text = "title = 'x'\n[state]\nx = '0.5..1'\ny = '0.5..1'\nu = '0.5..1'\nv = '0.5..1'\n[field]\n\
                 x = 'u'\ny = 'v'\nu = '-x/√((x² + y²)^3)'\nv = '-y/√((x² + y²)^3)'\n";
     let report = searched(text, &Effort::default());
-    let energy =
-        report.formulas("integral").find(|own| own.contains("v²") && !own.contains("x*v²"));
+    let energy = report
+        .formulas(FoundKind::Integral)
+        .find(|own| own.contains("v²") && !own.contains("x*v²"));
     assert!(energy.is_some_and(|own| own.contains("2/√(x² + y²)")), "{:?}", report.found);
 }
 
 #[test]
 fn half_angles_do_not_repeat_what_was_found() {
     let report = searched(&field("", &["x² + cos(y) - 1 + cos(y)²", "1"]), &Effort::default());
-    let told = report.found.iter().filter(|own| own.kind == "darboux-polynomial");
+    let told = report.found.iter().filter(|own| own.kind == FoundKind::DarbouxPolynomial);
     assert_eq!(told.count(), 1, "{:?}", report.found);
 }

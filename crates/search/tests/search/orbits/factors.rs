@@ -1,6 +1,6 @@
 //! Darboux polynomials, and what follows from their cofactors.
 
-use liouville_search::{Effort, SearchReport};
+use liouville_search::{Effort, FoundKind, Given, SearchReport};
 
 use super::{any_field, excluded, field, searched};
 
@@ -9,8 +9,8 @@ pub fn cofactor<'r>(report: &'r SearchReport, formula: &str) -> Option<&'r str> 
     let own = report
         .found
         .iter()
-        .find(|found| found.kind == "darboux-polynomial" && found.formula == formula)?;
-    own.with.iter().find(|(what, _)| *what == "cofactor").map(|(_, text)| text.as_str())
+        .find(|found| found.kind == FoundKind::DarbouxPolynomial && found.text() == formula)?;
+    own.with.iter().find(|own| matches!(own, Given::Cofactor(_))).map(Given::text)
 }
 
 #[test]
@@ -41,9 +41,9 @@ fn cofactors_give_logarithms_and_densities() {
     let report = searched(&field(parameters, &["x*(a - b*y)", "y*(c*x - d)"]), &Effort::default());
     assert_eq!(cofactor(&report, "x"), Some("a − b*y"), "x' = (a − b y) x");
     assert_eq!(cofactor(&report, "y"), Some("c*x − d"), "y' = (c x − d) y");
-    let integrals: Vec<&str> = report.formulas("integral").collect();
+    let integrals: Vec<&str> = report.formulas(FoundKind::Integral).collect();
     assert!(integrals.len() == 1 && integrals[0].contains("ln(x)"), "{integrals:?}");
-    assert_eq!(report.formulas("density").count(), 1, "Π f^α e^g");
+    assert_eq!(report.formulas(FoundKind::Density).count(), 1, "Π f^α e^g");
     assert!(excluded(&report).is_some_and(|degree| degree >= 8), "no rational integral");
 }
 
@@ -62,7 +62,7 @@ fn conjugate_factors_give_angles() {
     ];
     for (parameters, rates, form) in fields {
         let report = searched(&field(parameters, &rates), &Effort::default());
-        let integrals: Vec<&str> = report.formulas("integral").collect();
+        let integrals: Vec<&str> = report.formulas(FoundKind::Integral).collect();
         assert!(matches!(integrals[..], [own] if own.contains(form)), "{rates:?}: {integrals:?}");
     }
 }
@@ -73,7 +73,7 @@ fn factors_of_the_whole_field_are_found() {
     let report =
         searched(&field("b = '1..3'\ng = '1..3'", &["-b*x*y", "b*x*y - g*y"]), &Effort::default());
     assert_eq!(cofactor(&report, "y"), Some("b*x − g"), "{:?}", report.found);
-    assert_eq!(report.formulas("integral").count(), 1, "x + y − (g/b) ln x");
+    assert_eq!(report.formulas(FoundKind::Integral).count(), 1, "x + y − (g/b) ln x");
     // A circle of points of rest, and two lines of them.
     let circle = searched(
         &field("", &["(x² + y² − 1)*(x*y + 2)", "(x² + y² − 1)*(x − y² + 3)"]),
@@ -103,7 +103,7 @@ fn variables_that_divide_their_rates_are_found_at_any_degree() {
     for (parameters, rates, (variable, own), density) in fields {
         let report = searched(&field(parameters, &rates), &Effort::default());
         assert_eq!(cofactor(&report, variable), Some(own), "{rates:?}: {:?}", report.found);
-        assert_eq!(report.formulas("density").next().unwrap_or(""), density, "{rates:?}");
+        assert_eq!(report.formulas(FoundKind::Density).next().unwrap_or(""), density, "{rates:?}");
     }
     // x² + x y − y divides nothing, and 1/x has a pole where x is 0.
     for rates in [["x^30 + y", "y^40 + x"], ["y^30/x", "x^30/y"]] {
@@ -134,8 +134,15 @@ fn fields_of_fractions_have_those_of_the_field_times_the_denominator() {
     let report = searched(&chemostat, &Effort::default());
     assert_eq!(cofactor(&report, "x"), Some("(−d + (1 − d)*y)/(1 + y)"), "{:?}", report.found);
     // The total x + y − 1 decays.
-    let total = report.found.iter().find(|own| own.with.contains(&("cofactor", "−d".to_string())));
-    assert!(total.is_some_and(|own| own.kind == "darboux-polynomial"), "{:?}", report.found);
+    let total = report
+        .found
+        .iter()
+        .find(|own| own.with.iter().any(|own| (own.name(), own.text()) == ("cofactor", "−d")));
+    assert!(
+        total.is_some_and(|own| own.kind == FoundKind::DarbouxPolynomial),
+        "{:?}",
+        report.found
+    );
     let says = |own: &String| own.contains("for the field times 1 + y, every Darboux polynomial");
     let theorems: Vec<&String> = report.excluded.iter().map(|own| &own.theorem).collect();
     assert!(theorems.iter().any(|own| says(own)), "{theorems:?}");
@@ -155,20 +162,20 @@ fn fractions_with_factors_in_exponents_are_found() {
     ];
     for (parameters, rates, integral) in fields {
         let report = searched(&field(parameters, &rates), &Effort::default());
-        let integrals: Vec<&str> = report.formulas("integral").collect();
+        let integrals: Vec<&str> = report.formulas(FoundKind::Integral).collect();
         assert_eq!(integrals, [integral], "{rates:?}");
         assert!(excluded(&report).is_some(), "no rational integral: {rates:?}");
     }
     let report = searched(&field("", &["x²", "-2*x*y + y + 1"]), &Effort::default());
-    assert_eq!(report.formulas("density").collect::<Vec<_>>(), ["exp(1/x)"]);
+    assert_eq!(report.formulas(FoundKind::Density).collect::<Vec<_>>(), ["exp(1/x)"]);
     // One with a logarithm, in y and z alone, does not take the place of a rational one.
     let report = searched(&field("", &["y", "z - 1", "z²"]), &Effort::default());
-    let with_logarithm = report.formulas("integral").filter(|own| own.contains("ln("));
+    let with_logarithm = report.formulas(FoundKind::Integral).filter(|own| own.contains("ln("));
     assert_eq!(with_logarithm.count(), 1, "{:?}", report.found);
-    assert_eq!(report.formulas("integral").count(), 2, "{:?}", report.found);
+    assert_eq!(report.formulas(FoundKind::Integral).count(), 2, "{:?}", report.found);
     // What needs no fraction is written without one.
     let report = searched(&field("", &["x²", "y"]), &Effort::default());
-    assert_eq!(report.formulas("density").collect::<Vec<_>>(), ["1/(x²*y)"]);
+    assert_eq!(report.formulas(FoundKind::Density).collect::<Vec<_>>(), ["1/(x²*y)"]);
 }
 
 #[test]
@@ -201,10 +208,10 @@ fn darboux_polynomials_beside_functions_with_relations_are_found() {
     for (rates, formula, own, integral) in fields {
         let report = searched(&any_field(&rates), &Effort::default());
         assert_eq!(cofactor(&report, formula), Some(own), "{rates:?}: {:?}", report.found);
-        let integrals: Vec<&str> = report.formulas("integral").collect();
+        let integrals: Vec<&str> = report.formulas(FoundKind::Integral).collect();
         assert_eq!(integrals, [integral], "{rates:?}");
         // Neither a relation between the functions nor a function alone is told.
-        let told = report.found.iter().filter(|found| found.kind == "darboux-polynomial");
+        let told = report.found.iter().filter(|found| found.kind == FoundKind::DarbouxPolynomial);
         assert_eq!(told.count(), 1, "{rates:?}: {:?}", report.found);
     }
 }
@@ -213,10 +220,10 @@ fn darboux_polynomials_beside_functions_with_relations_are_found() {
 fn integrals_in_the_plane_follow_from_a_density() {
     let report = searched(&any_field(&[("x", "y"), ("y", "-x*sin(x) - y²")]), &Effort::default());
     let integral = "2*x + ln(|6*sin(x) − 8*cos(x) − 20*x*sin(x) + 10*x*cos(x) − 25*y²|)";
-    assert_eq!(report.formulas("integral").collect::<Vec<_>>(), [integral]);
+    assert_eq!(report.formulas(FoundKind::Integral).collect::<Vec<_>>(), [integral]);
     // Without a Darboux polynomial, which has too many terms.
     let report = searched(&any_field(&[("x", "y"), ("y", "-x²*sin(x) - y²")]), &Effort::default());
-    let own: Vec<&str> = report.formulas("integral").collect();
+    let own: Vec<&str> = report.formulas(FoundKind::Integral).collect();
     let [integral] = own[..] else { panic!("{own:?}") };
     assert!(integral.starts_with("exp(2*x)*("), "{integral}");
     let only = |own: &liouville_search::Excluded| own.theorem.contains(integral);
@@ -233,7 +240,7 @@ fn logarithms_are_those_of_moduli_unless_the_ranges_say_otherwise() {
     };
     let first = |text: &str| {
         let report = searched(text, &Effort::default());
-        let own = report.formulas("integral").next().expect("an integral");
+        let own = report.formulas(FoundKind::Integral).next().expect("an integral");
         own.to_string()
     };
     let own = "6*a*x + 4*a⁴*y² + 4*a³*x³ − 3 − 6*a²*x²";
@@ -253,8 +260,8 @@ fn logarithms_are_those_of_moduli_unless_the_ranges_say_otherwise() {
 fn factors_with_parameters_are_told_one_by_one() {
     let found = |parameters: &str, rates: &[&str]| -> Vec<String> {
         let report = searched(&field(parameters, rates), &Effort::default());
-        let own = report.found.iter().filter(|own| own.kind == "darboux-polynomial");
-        own.map(|own| own.formula.clone()).collect()
+        let own = report.found.iter().filter(|own| own.kind == FoundKind::DarbouxPolynomial);
+        own.map(|own| own.text().to_string()).collect()
     };
     // x ± a y.
     let own = found("a = '1..2'", &["x + a²*y", "x + y"]);

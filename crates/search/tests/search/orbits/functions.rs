@@ -1,6 +1,6 @@
 //! Fields with functions: how many independent integrals are counted where functions are variables.
 
-use liouville_search::{Effort, Remark, search};
+use liouville_search::{Effort, FoundKind, Remark, search};
 
 use super::{any_field, field, searched};
 
@@ -20,7 +20,7 @@ fn functions_of_the_state_add_no_integrals() {
         let report = searched(&text, &Effort::default());
         let counted = report.orbits.last().map_or(0, |own| own.integrals);
         assert!(counted <= most, "{name}: {counted} are counted");
-        let found = report.formulas("integral").count();
+        let found = report.formulas(FoundKind::Integral).count();
         assert!(found <= most, "{name}: {found} are found");
     }
 }
@@ -43,12 +43,12 @@ fn planted_integrals_are_counted() {
     // x − y and exp(x) − z are integrals.
     let text = field("", &["y*z", "y*z", "y*z*exp(x)"]);
     let report = searched(&text, &Effort::default());
-    assert_eq!(report.formulas("integral").count(), 2, "{:?}", report.found);
+    assert_eq!(report.formulas(FoundKind::Integral).count(), 2, "{:?}", report.found);
     // y√(1 + x²) − x√(1 + y²), that is sinh(arsinh y − arsinh x).
     let text = field("", &["√(1 + x²)", "√(1 + y²)"]);
     let report = searched(&text, &Effort::default());
     assert_eq!(report.orbits.last().map(|own| own.integrals), Some(1), "{:?}", report.orbits);
-    assert_eq!(report.formulas("integral").count(), 1, "{:?}", report.found);
+    assert_eq!(report.formulas(FoundKind::Integral).count(), 1, "{:?}", report.found);
 }
 
 #[test]
@@ -61,7 +61,7 @@ fn roots_and_exponentials_are_written_simply() {
         let case = liouville::case::Case::parse(&text, &[]).expect("a case");
         let report = search(&case, &Effort::default(), &mut |_| {}).expect("it can be searched");
         for found in &report.found {
-            let own = &found.formula;
+            let own = &found.text();
             assert!(!own.contains("−−"), "{own}");
             assert!(!own.contains("ln(exp"), "{own}");
             assert!(!own.contains("ln(|exp"), "{own}");
@@ -75,13 +75,13 @@ fn fields_with_a_modulus_have_no_theorem() {
     let text = "title = 'x'\nsystem = 'field'\n[state]\nx = '-2..2'\ny = '-2..2'\n[field]\n\
                 \"x'\" = 'y'\n\"y'\" = '-|x|'";
     let report = searched(text, &Effort::default());
-    let integrals: Vec<&str> = report.formulas("integral").collect();
+    let integrals: Vec<&str> = report.formulas(FoundKind::Integral).collect();
     assert!(matches!(integrals[..], [own] if own.contains("|x|")), "{integrals:?}");
     assert!(report.excluded.is_empty(), "{:?}", report.excluded);
     // Where x > 0 alone, x² + y² is an integral, and a fraction as |x|/x is 1.
     let text = text.replace("x = '-2..2'", "x = '1..2'");
     let report = searched(&text, &Effort::default());
-    assert_eq!(report.formulas("integral").count(), 1, "{:?}", report.found);
+    assert_eq!(report.formulas(FoundKind::Integral).count(), 1, "{:?}", report.found);
     assert!(report.excluded.is_empty(), "{:?}", report.excluded);
 }
 
@@ -99,9 +99,24 @@ fn fields_without_divergence_have_the_density_1() {
              function = '{energy}'\npairs = [['q', 'p']]\n"
         );
         let report = searched(&text, &Effort::default());
-        assert_eq!(report.formulas("density").collect::<Vec<_>>(), ["1"], "{energy}");
+        assert_eq!(report.formulas(FoundKind::Density).collect::<Vec<_>>(), ["1"], "{energy}");
     }
     let growing = any_field(&[("x", "sin(x)/(2 + cos(y))"), ("y", "exp(x)")]);
     let report = searched(&growing, &Effort::default());
-    assert!(report.formulas("density").all(|own| own != "1"), "{:?}", report.found);
+    assert!(report.formulas(FoundKind::Density).all(|own| own != "1"), "{:?}", report.found);
+}
+
+#[test]
+fn names_of_a_file_are_not_taken_for_those_of_functions() {
+    // Functions are variables with names of the program, such as aux3.
+    for name in ["a", "aux3", "arcaux3"] {
+        let text = format!(
+            "title = 'x'\n[parameters]\n{name} = '1..2'\n[state]\nx = '-1..1'\ny = '-1..1'\n[field]\n\
+             x = 'y'\ny = '-{name}*sin(x)'\n"
+        );
+        let report = searched(&text, &Effort { degree: 2, ..Effort::default() });
+        let integral = format!("y² − 2*{name}*cos(x)");
+        assert_eq!(report.formulas(FoundKind::Integral).collect::<Vec<_>>(), [integral]);
+        assert_eq!(report.excluded.len(), 1, "{name}: {:?}", report.remarks);
+    }
 }

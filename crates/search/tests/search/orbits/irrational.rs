@@ -1,14 +1,14 @@
 //! Fields and maps with roots of numbers and of parameters as coefficients.
 
 use liouville::case::Case;
-use liouville_search::{Ansatz, Effort, Remark, SearchReport, search};
+use liouville_search::{Ansatz, Effort, FoundKind, Remark, SearchReport, search};
 
 use super::factors::cofactor;
 use super::maps::map;
 use super::{field, searched};
 
 fn integral(report: &SearchReport) -> Option<&str> {
-    report.formulas("integral").next()
+    report.formulas(FoundKind::Integral).next()
 }
 
 /// Whether a theorem excludes Darboux polynomials, or integrals P/Q.
@@ -62,14 +62,14 @@ fn factors_with_irrational_coefficients_are_written() {
     // Conjugate over the Gaussian numbers.
     let report = searched(&field("", &["√2*x - y", "x + √2*y"]), &Effort::default());
     assert_eq!(cofactor(&report, "x² + y²"), Some("2*√2"), "{:?}", report.found);
-    assert_eq!(report.formulas("density").next(), Some("1/(x² + y²)"));
+    assert_eq!(report.formulas(FoundKind::Density).next(), Some("1/(x² + y²)"));
     assert!(integral(&report).is_some_and(|own| own.contains("atan")), "{:?}", report.found);
 }
 
 #[test]
 fn fields_with_roots_and_no_factor_exclude_nothing() {
     let report = searched(&field("", &["y", "√2*x - x³ + x²*y"]), &Effort::default());
-    assert_eq!(report.formulas("density").count(), 0);
+    assert_eq!(report.formulas(FoundKind::Density).count(), 0);
     assert!(!excludes(&report), "{:?}", report.excluded);
 }
 
@@ -95,7 +95,7 @@ fn an_ansatz_for_a_lagrangian_has_roots_as_coefficients() {
     let ansatz = Ansatz { wanted: true, ..Ansatz::default() };
     let effort = Effort { ansatz, ..Effort::default() };
     let report = search(&case, &effort, &mut |_| {}).expect("it can be searched");
-    assert_eq!(report.formulas("integral").count(), 1, "{:?}", report.found);
+    assert_eq!(report.formulas(FoundKind::Integral).count(), 1, "{:?}", report.found);
     assert!(report.remarks.iter().all(|own| !own.contains("neither")), "{:?}", report.remarks);
     let theorems: Vec<&String> = report.excluded.iter().map(|own| &own.theorem).collect();
     assert!(theorems.iter().all(|own| !own.contains("not known")), "{theorems:?}");
@@ -108,7 +108,7 @@ fn logarithms_of_a_part_do_not_hide_integrals_of_the_whole() {
         let rates = [format!("{a}*x − 1"), "y − 2*x²".to_string(), format!("2*x − {a}*y")];
         let report =
             searched(&field(parameters, &rates.each_ref().map(String::as_str)), &Effort::default());
-        let found: Vec<&str> = report.formulas("integral").collect();
+        let found: Vec<&str> = report.formulas(FoundKind::Integral).collect();
         assert_eq!(found.len(), 2, "{found:?}");
         assert!(found.iter().any(|own| own.contains("x²") && !own.contains("ln")), "{found:?}");
     }

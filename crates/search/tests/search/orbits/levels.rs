@@ -1,6 +1,7 @@
 //! Darboux polynomials, and what follows from them, on spheres and affine spaces.
 
 use super::{Effort, SearchReport, searched};
+use liouville_search::FoundKind;
 
 /// A field in a vector x, with components in a range, on a level.
 fn on_level(rates: &[&str], (range, level): (&str, &str)) -> SearchReport {
@@ -13,8 +14,8 @@ fn on_level(rates: &[&str], (range, level): (&str, &str)) -> SearchReport {
     searched(&text, &Effort::default())
 }
 
-fn all<'r>(report: &'r SearchReport, kind: &'r str) -> Vec<&'r str> {
-    report.found.iter().filter(|own| own.kind == kind).map(|own| own.formula.as_str()).collect()
+fn all(report: &SearchReport, kind: FoundKind) -> Vec<&str> {
+    report.found.iter().filter(|own| own.kind == kind).map(|own| own.text()).collect()
 }
 
 const SPHERE: (&str, &str) = ("-1..1", "(x,x) = 1");
@@ -26,19 +27,19 @@ fn logarithms_and_densities_are_found_on_spheres() {
     let own = ["-b*x2 - a*b*x1*x3", "b*x1 - a*b*x2*x3", "a*b*(1 - x3²)"];
     let found = on_level(&own, SPHERE);
     let angle = "ln(|1 − x3|) − ln(1 + x3) + 2*a*atan(x2/x1)";
-    assert_eq!(all(&found, "integral"), [angle]);
-    assert_eq!(all(&found, "density"), ["1/((1 − x3)*(1 + x3))"]);
-    assert_eq!(all(&found, "function-of-constant-rate").len(), 1);
+    assert_eq!(all(&found, FoundKind::Integral), [angle]);
+    assert_eq!(all(&found, FoundKind::Density), ["1/((1 − x3)*(1 + x3))"]);
+    assert_eq!(all(&found, FoundKind::ConstantRate).len(), 1);
     // Oja's flow.
     let q = "(a*x1² + b*x2² + 3*x3²)";
     let own = [format!("x1*(a - {q})"), format!("x2*(b - {q})"), format!("x3*(3 - {q})")];
     let found = on_level(&own.each_ref().map(String::as_str), SPHERE);
-    assert_eq!(all(&found, "integral").len(), 1);
-    assert_eq!(all(&found, "density"), ["1/(x1*x2*x3)"]);
+    assert_eq!(all(&found, FoundKind::Integral).len(), 1);
+    assert_eq!(all(&found, FoundKind::Density), ["1/(x1*x2*x3)"]);
     // Heights on a sphere of four dimensions grow.
     let found = on_level(&["1 - x1*x1", "-x1*x2", "-x1*x3", "-x1*x4"], SPHERE);
-    assert_eq!(all(&found, "integral").len(), 2);
-    assert_eq!(all(&found, "function-of-constant-rate").len(), 1);
+    assert_eq!(all(&found, FoundKind::Integral).len(), 2);
+    assert_eq!(all(&found, FoundKind::ConstantRate).len(), 1);
 }
 
 #[test]
@@ -46,8 +47,8 @@ fn logarithms_and_densities_are_found_on_simplices() {
     let q = "(a*x1 + b*x2 + 3*x3)";
     let own = [format!("x1*(a - {q})"), format!("x2*(b - {q})"), format!("x3*(3 - {q})")];
     let found = on_level(&own.each_ref().map(String::as_str), SIMPLEX);
-    assert_eq!(all(&found, "integral").len(), 1);
-    assert_eq!(all(&found, "density"), ["1/(x1*x2*x3)"]);
-    assert_eq!(all(&found, "function-of-constant-rate").len(), 1);
-    assert_eq!(all(&found, "darboux-polynomial").len(), 3);
+    assert_eq!(all(&found, FoundKind::Integral).len(), 1);
+    assert_eq!(all(&found, FoundKind::Density), ["1/(x1*x2*x3)"]);
+    assert_eq!(all(&found, FoundKind::ConstantRate).len(), 1);
+    assert_eq!(all(&found, FoundKind::DarbouxPolynomial).len(), 3);
 }

@@ -1,6 +1,7 @@
 //! Integrals of degree 1 in the velocities, which come before others that are functions of them.
 
 use super::{Effort, SearchReport, field, searched};
+use liouville_search::FoundKind;
 
 fn effort(degree: u32) -> Effort {
     Effort { degree, ..Effort::default() }
@@ -16,8 +17,8 @@ fn lagrangian(parameters: &str, state: &str, rest: &str) -> String {
     )
 }
 
-fn all<'r>(report: &'r SearchReport, kind: &'r str) -> Vec<&'r str> {
-    report.found.iter().filter(|own| own.kind == kind).map(|own| own.formula.as_str()).collect()
+fn all(report: &SearchReport, kind: FoundKind) -> Vec<&str> {
+    report.found.iter().filter(|own| own.kind == kind).map(|own| own.text()).collect()
 }
 
 /// Whether as many integrals of each degree are known as are counted.
@@ -35,13 +36,21 @@ fn a_charge_in_crossed_fields_drifts() {
         lagrangian("B K N", "x y x' y'", &rest)
     };
     let found = searched(&text("-K*x"), &effort(2));
-    assert!(all(&found, "integral").contains(&"B*x + y'"), "{:?}", all(&found, "integral"));
+    assert!(
+        all(&found, FoundKind::Integral).contains(&"B*x + y'"),
+        "{:?}",
+        all(&found, FoundKind::Integral)
+    );
     assert!(is_counted(&found));
-    let rates = all(&found, "function-of-constant-rate");
+    let rates = all(&found, FoundKind::ConstantRate);
     assert!(rates.contains(&"B*y − x'"), "{rates:?}");
     let found = searched(&text("-K*x - N*y"), &effort(2));
     let drift = "B*K*x + B*N*y − N*x' + K*y'";
-    assert!(all(&found, "integral").contains(&drift), "{:?}", all(&found, "integral"));
+    assert!(
+        all(&found, FoundKind::Integral).contains(&drift),
+        "{:?}",
+        all(&found, FoundKind::Integral)
+    );
 }
 
 #[test]
@@ -50,14 +59,14 @@ fn a_linear_integral_takes_the_place_of_its_square() {
     let rest = "kinetic = \"((1 + y²)*x'² + y'²)/2\"\npotential = 'l*y²/2'\n\
                 forces = { x = \"y*y'*x'\", y = \"−y*x'²\" }\n";
     let found = searched(&lagrangian("l", "x y x' y'", rest), &effort(1));
-    assert_eq!(all(&found, "integral"), ["x'*√(1 + y²)"]);
-    assert_eq!(all(&found, "density"), ["√(1 + y²)"], "without velocities");
+    assert_eq!(all(&found, FoundKind::Integral), ["x'*√(1 + y²)"]);
+    assert_eq!(all(&found, FoundKind::Density), ["√(1 + y²)"], "without velocities");
     assert!(is_counted(&found));
     // Two of three components of a velocity determine the third by the energy, up to its sign.
     let frame = "kinetic = '(x²*u² + (u*y + v)²)/2'\nquasi-velocities = ['u', 'v']\n\
                  [field]\n\"x'\" = 'x*u'\n\"y'\" = 'u*y + v'\n";
     let found = searched(&lagrangian("", "x y u v", frame), &effort(2));
-    assert!(all(&found, "further-integral").contains(&"y*u + v"));
+    assert!(all(&found, FoundKind::FurtherIntegral).contains(&"y*u + v"));
     assert!(is_counted(&found));
 }
 
@@ -66,10 +75,14 @@ fn positions_on_constraints_and_rates_with_cosines_are_linear_forms() {
     let effort = Effort { by_factors: false, ..effort(1) };
     let rest = "kinetic = \"(f'² + a'² + b'²)/2\"\npotential = 'f'\nconstraints = [\"2*L*f' = a' - b'\"]\n";
     let found = searched(&lagrangian("L", "f a b f' a' b'", rest), &effort);
-    assert!(all(&found, "integral").contains(&"2*L*f − a + b"), "{:?}", all(&found, "integral"));
+    assert!(
+        all(&found, FoundKind::Integral).contains(&"2*L*f − a + b"),
+        "{:?}",
+        all(&found, FoundKind::Integral)
+    );
     let rest = "kinetic = \"(x'² + f'²)/2\"\npotential = '−g*x'\nforces = { x = \"−f'*sin(f)\" }\n";
     let found = searched(&lagrangian("g", "x f x' f'", rest), &effort);
-    let rates = all(&found, "function-of-constant-rate");
+    let rates = all(&found, FoundKind::ConstantRate);
     assert!(rates.contains(&"x' − cos(f)"), "{rates:?}");
 }
 
@@ -101,7 +114,12 @@ algebra = 'so(3)'
 constraints = [\"x' = R*(b,w)\", \"y' = -R*(a,w)\"]
 ";
     let found = searched(text, &effort(1));
-    assert_eq!(found.functions("integral").count(), 3, "{:?}", all(&found, "integral"));
+    assert_eq!(
+        found.functions(FoundKind::Integral).count(),
+        3,
+        "{:?}",
+        all(&found, FoundKind::Integral)
+    );
 }
 
 #[test]
@@ -110,7 +128,7 @@ fn variables_that_divide_their_rates_are_factors_beside_denominators() {
     let text = "title = 'x'\nsystem = 'field'\n[parameters]\nk = '1..2'\n[state]\nr = '0.5..2'\nf = '-1..1'\n\
                 [field]\n\"r'\" = 'k*sin(f) - 1'\n\"f'\" = 'k*cos(f)/r'\n";
     let found = searched(text, &effort(1));
-    let integrals = all(&found, "integral");
+    let integrals = all(&found, FoundKind::Integral);
     assert_eq!(integrals, ["(k − 1)*ln(cos(f)) + k*ln(r) + ln(1 + sin(f))"]);
 }
 
@@ -120,24 +138,24 @@ fn the_rational_part_of_a_field_is_searched_by_itself() {
                 f = '-3..3'\nu = '-1..1'\nw = '-1..1'\n[field]\n\"x'\" = 'u*cos(f)'\n\
                 \"f'\" = 'w'\n\"u'\" = '2*w² - c*u'\n\"w'\" = '-u*w - c*w'\n";
     let found = searched(text, &effort(1));
-    let has_angle = all(&found, "integral").iter().any(|own| own.contains("atan"));
-    assert!(has_angle, "{:?}", all(&found, "integral"));
-    let rates = all(&found, "function-of-constant-rate");
+    let has_angle = all(&found, FoundKind::Integral).iter().any(|own| own.contains("atan"));
+    assert!(has_angle, "{:?}", all(&found, FoundKind::Integral));
+    let rates = all(&found, FoundKind::ConstantRate);
     assert_eq!(rates.len(), 1, "each is told once: {rates:?}");
 }
 
 #[test]
 fn quotients_of_constant_rate_are_found_besides_all_integrals() {
     let found = searched(&field("", &["y", "-3*x*y - x³"]), &effort(1));
-    assert_eq!(all(&found, "integral").len(), 1);
-    assert_eq!(all(&found, "function-of-constant-rate"), ["x/(y + x²)"]);
+    assert_eq!(all(&found, FoundKind::Integral).len(), 1);
+    assert_eq!(all(&found, FoundKind::ConstantRate), ["x/(y + x²)"]);
 }
 
 #[test]
 fn roots_of_squares_are_written_without_roots() {
     let rest = "kinetic = \"(x'² + y'²)/2 + B*(x*y' - y*x')/2\"\npotential = '-K*x - N*y'\n";
     let found = searched(&lagrangian("B K N", "x y x' y'", rest), &effort(1));
-    let angles = all(&found, "function-of-constant-rate");
+    let angles = all(&found, FoundKind::ConstantRate);
     assert!(angles.contains(&"atan((N − B*x')/(K + B*y'))"), "{angles:?}");
 }
 
@@ -145,7 +163,8 @@ fn roots_of_squares_are_written_without_roots() {
 fn a_longitude_gives_all_components_of_the_angular_momentum() {
     let rest = "kinetic = \"(h'² + sin(h)²*f'²)/2\"\n";
     let found = searched(&lagrangian("", "h f h' f'", rest), &effort(1));
-    let linear = [all(&found, "integral"), all(&found, "further-integral")].concat();
+    let linear =
+        [all(&found, FoundKind::Integral), all(&found, FoundKind::FurtherIntegral)].concat();
     assert_eq!(linear.len(), 3, "{linear:?}");
 }
 
@@ -153,7 +172,8 @@ fn a_longitude_gives_all_components_of_the_angular_momentum() {
 fn polar_coordinates_have_the_cartesian_momenta() {
     let found =
         searched(&lagrangian("", "r f r' f'", "kinetic = \"(r'² + r²*f'²)/2\"\n"), &effort(1));
-    let linear = [all(&found, "integral"), all(&found, "further-integral")].concat();
+    let linear =
+        [all(&found, FoundKind::Integral), all(&found, FoundKind::FurtherIntegral)].concat();
     let is_momentum = |own: &&&str| own.contains("cos(f)") && own.contains("sin(f)");
     assert_eq!(linear.iter().filter(is_momentum).count(), 2, "{linear:?}");
     assert!(is_counted(&found), "{:?}", found.counts);

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use liouville::case::Case;
 use liouville_search::{
-    Ansatz, ConditionTarget, Effort, Hamiltonians, Remark, SearchReport, search,
+    Ansatz, ConditionTarget, Effort, FoundKind, Hamiltonians, Remark, SearchReport, search,
 };
 
 use super::{excluded, searched};
@@ -31,7 +31,12 @@ fn integrals_of_known_maps_are_written_out() {
     ];
     for (name, text, count) in cases {
         let report = searched(&text, &Effort::default());
-        assert_eq!(report.formulas("integral").count(), count, "{name}: {:?}", report.found);
+        assert_eq!(
+            report.formulas(FoundKind::Integral).count(),
+            count,
+            "{name}: {:?}",
+            report.found
+        );
     }
 }
 
@@ -41,7 +46,7 @@ fn integrals_over_a_density_are_short_and_found_in_other_coordinates() {
     let other = map("", &["y + 2*x", "z − 2*(y + 2*x)", "(1 + y + 2*x + z)/x"]);
     for (text, below) in [(own, "/(x*y*z)"), (other, "/(x*z*(2*x + y))")] {
         let report = searched(&text, &Effort::default());
-        let short = report.formulas("integral").filter(|own| own.ends_with(below));
+        let short = report.formulas(FoundKind::Integral).filter(|own| own.ends_with(below));
         assert_eq!(short.count(), 2, "of order 8: {:?}", report.found);
     }
 }
@@ -51,7 +56,7 @@ fn a_chaotic_map_has_no_rational_integral() {
     let henon =
         searched(&map("a = '0.5..2'\nb = '0.5..2'", &["y", "1 - a*y² + b*x"]), &Effort::default());
     assert_eq!(excluded(&henon), Some(8), "{:?}", henon.excluded);
-    assert_eq!(henon.formulas("integral").count(), 0);
+    assert_eq!(henon.formulas(FoundKind::Integral).count(), 0);
 }
 
 #[test]
@@ -86,7 +91,7 @@ fn planted_integrals_of_maps_are_not_excluded() {
         let report = searched(&map("k = '0.5..2'", &images), &Effort::default());
         let degree = excluded(&report).unwrap_or(0);
         assert!(degree < kept, "{own} is an integral of degree {kept}: {:?}", report.excluded);
-        assert_eq!(report.formulas("integral").count(), 1, "{own}: {:?}", report.found);
+        assert_eq!(report.formulas(FoundKind::Integral).count(), 1, "{own}: {:?}", report.found);
     }
 }
 
@@ -108,7 +113,7 @@ fn options_for_fields_are_noted() {
 
 /// Formulas of the densities that are found.
 fn densities(report: &SearchReport) -> Vec<&str> {
-    report.formulas("density").collect()
+    report.formulas(FoundKind::Density).collect()
 }
 
 #[test]
@@ -180,12 +185,17 @@ fn the_order_of_a_map_is_told_with_sums_over_its_orbits() {
             (Some(own), Some(order)) => assert!(own.contains(order), "{name}: {own}"),
             (own, order) => assert_eq!(own.map(|own| &**own), order, "{name}"),
         }
-        assert_eq!(report.formulas("integral").count(), count, "{name}: {:?}", report.found);
+        assert_eq!(
+            report.formulas(FoundKind::Integral).count(),
+            count,
+            "{name}: {:?}",
+            report.found
+        );
     }
     let level = "title = 'x'\nsystem = 'map'\n[state]\nx = '0.5..2'\ny = '0.5..2'\nz = '0.5..2'\n[level]\n\
                  equations = ['x*y*z = 1']\n[map]\nx = 'y'\ny = 'z'\nz = 'x'\n";
     let report = searched(level, &Effort::default());
-    assert_eq!(report.formulas("integral").count(), 2, "{:?}", report.found);
+    assert_eq!(report.formulas(FoundKind::Integral).count(), 2, "{:?}", report.found);
 }
 
 #[test]
@@ -198,11 +208,15 @@ fn coordinates_that_a_map_keeps_are_integrals() {
     ];
     for (images, densities) in maps {
         let report = searched(&map("", &images), &Effort::default());
-        let kept: Vec<&str> = report.formulas("integral").collect();
+        let kept: Vec<&str> = report.formulas(FoundKind::Integral).collect();
         // An even function is kept by −y.
         let own = if images[1] == "y" { "y" } else { "cos(y)" };
         assert_eq!(kept, [own], "{images:?}");
-        assert_eq!(report.formulas("density").collect::<Vec<_>>(), densities, "{images:?}");
+        assert_eq!(
+            report.formulas(FoundKind::Density).collect::<Vec<_>>(),
+            densities,
+            "{images:?}"
+        );
     }
 }
 
@@ -222,24 +236,33 @@ fn maps_by_monomials_have_integrals_with_logarithms() {
     ];
     for (parameters, images, count) in maps {
         let report = searched(&map(parameters, &images), &Effort::default());
-        assert_eq!(report.formulas("integral").count(), count, "{images:?}: {:?}", report.found);
+        assert_eq!(
+            report.formulas(FoundKind::Integral).count(),
+            count,
+            "{images:?}: {:?}",
+            report.found
+        );
     }
     let square = searched(&map("", &["x²", "y²"]), &Effort::default());
-    let own: Vec<&str> = square.formulas("integral").collect();
+    let own: Vec<&str> = square.formulas(FoundKind::Integral).collect();
     assert!(own == ["ln(y)/ln(x)"] || own == ["ln(x)/ln(y)"], "{own:?}");
     // Sums are no monomials.
     let other = searched(&map("", &["x² + 1", "y²"]), &Effort::default());
-    assert_eq!(other.formulas("integral").count(), 0, "{:?}", other.found);
+    assert_eq!(other.formulas(FoundKind::Integral).count(), 0, "{:?}", other.found);
 }
 
 #[test]
 fn logarithms_are_those_of_moduli_where_signs_are_open() {
     let text = "title = 'x'\n[state]\nx = '-2..2'\ny = '-2..2'\n[map]\nx = 'x³*y'\ny = 'y³'\n";
     let report = searched(text, &Effort::default());
-    assert!(report.formulas("integral").all(|own| own.contains("|x|")), "{:?}", report.found);
+    assert!(
+        report.formulas(FoundKind::Integral).all(|own| own.contains("|x|")),
+        "{:?}",
+        report.found
+    );
     let text = text.replace("x³*y", "x³");
     let report = searched(&text, &Effort::default());
-    assert_eq!(report.formulas("integral").count(), 1, "{:?}", report.found);
+    assert_eq!(report.formulas(FoundKind::Integral).count(), 1, "{:?}", report.found);
 }
 
 #[test]
@@ -288,7 +311,7 @@ fn densities_of_maps_with_functions_are_found() {
 fn integrals_of_maps_with_functions_are_found() {
     let integrals = |images: &[&str]| {
         let report = searched(&map("", images), &Effort::default());
-        report.formulas("integral").map(ToString::to_string).collect::<Vec<_>>()
+        report.formulas(FoundKind::Integral).map(ToString::to_string).collect::<Vec<_>>()
     };
     assert_eq!(integrals(&["x*exp(x*y)", "y*exp(-x*y)"]), ["x*y"]);
     assert_eq!(integrals(&["x + ln(y)", "y"]), ["y"]);

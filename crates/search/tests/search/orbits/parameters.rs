@@ -1,7 +1,7 @@
 //! Values of parameters for which a field has more integrals.
 
 use liouville::verdict::Options;
-use liouville_search::{ConditionTarget, Effort, SearchReport};
+use liouville_search::{ConditionTarget, Effort, FoundKind, SearchReport};
 
 use super::{field, searched};
 
@@ -17,9 +17,11 @@ fn equations(report: &SearchReport) -> Vec<&str> {
 
 /// Integrals that hold for special values, with these.
 fn special(report: &SearchReport) -> Vec<(String, String)> {
-    let own = report.found.iter().filter(|found| found.kind == "integral");
-    own.flat_map(|found| found.with.iter().map(|(_, value)| (value.clone(), found.formula.clone())))
-        .collect()
+    let own = report.found.iter().filter(|found| found.kind == FoundKind::Integral);
+    own.flat_map(|found| {
+        found.with.iter().map(|own| (own.text().to_string(), found.text().to_string()))
+    })
+    .collect()
 }
 
 #[test]

@@ -1,35 +1,35 @@
 //! Finds as one would publish them.
 
 use liouville::verdict::DensitySign;
-use liouville_search::{Effort, SearchReport};
+use liouville_search::{Effort, FoundKind, SearchReport};
 
 use super::maps::map;
 use super::{field, searched};
 
-fn told<'r>(report: &'r SearchReport, kind: &'static str) -> Vec<&'r str> {
+fn told(report: &SearchReport, kind: FoundKind) -> Vec<&str> {
     report.formulas(kind).collect()
 }
 
 /// Functions of constant rate with their rates.
 fn rates(report: &SearchReport) -> Vec<(&str, &str)> {
-    let own = report.found.iter().filter(|own| own.kind == "function-of-constant-rate");
-    own.map(|own| (own.formula.as_str(), own.with[0].1.as_str())).collect()
+    let own = report.found.iter().filter(|own| own.kind == FoundKind::ConstantRate);
+    own.map(|own| (own.text(), own.with[0].text())).collect()
 }
 
 #[test]
 fn products_are_written_as_products() {
     // Lyness: the constant that makes it a product is not part of what is found.
     let report = searched(&map("a = '0.5..2'", &["y", "(a + y)/x"]), &Effort::default());
-    assert_eq!(told(&report, "integral"), ["(1 + x)*(1 + y)*(a + x + y)/(x*y)"]);
-    assert_eq!(told(&report, "density"), ["1/(x*y)"]);
+    assert_eq!(told(&report, FoundKind::Integral), ["(1 + x)*(1 + y)*(a + x + y)/(x*y)"]);
+    assert_eq!(told(&report, FoundKind::Density), ["1/(x*y)"]);
 }
 
 #[test]
 fn functions_are_those_of_the_file() {
     let report = searched(&field("", &["y", "−y²*tanh(x) − x"]), &Effort::default());
-    let all = told(&report, "integral");
+    let all = told(&report, FoundKind::Integral);
     assert!(all.len() == 1 && !all[0].contains("exp") && all[0].contains("cosh(2*x)"), "{all:?}");
-    assert_eq!(told(&report, "density"), ["1 + cosh(2*x)"]);
+    assert_eq!(told(&report, FoundKind::Density), ["1 + cosh(2*x)"]);
 }
 
 #[test]
@@ -61,7 +61,7 @@ fn distances_are_sums_of_squares() {
     );
     let report = searched(&text, &Effort::default());
     let long: Vec<&str> =
-        report.found.iter().map(|own| own.formula.as_str()).filter(|own| own.len() > 90).collect();
+        report.found.iter().map(|own| own.text()).filter(|own| own.len() > 90).collect();
     assert!(long.is_empty(), "{long:?}");
 }
 
@@ -71,7 +71,7 @@ fn several_exponentials_become_hyperbolic_functions() {
                 [hamiltonian]\nfunction = '(p² + q²)/2 + cosh(x − y) + cosh(x + y)'\n\
                 pairs = [['x', 'p'], ['y', 'q']]\n";
     let report = searched(text, &Effort::default());
-    assert_eq!(told(&report, "integral"), ["cosh(x + y) + p*q − cosh(x − y)"]);
+    assert_eq!(told(&report, FoundKind::Integral), ["cosh(x + y) + p*q − cosh(x − y)"]);
 }
 
 #[test]
@@ -82,7 +82,7 @@ fn squares_of_sums_are_written_as_such() {
          v = '-1..1'\n[field]\n{rates}"
     );
     let report = searched(&text, &Effort::default());
-    assert_eq!(told(&report, "integral"), ["(x*v − y*u)² + y²/x²"]);
+    assert_eq!(told(&report, FoundKind::Integral), ["(x*v − y*u)² + y²/x²"]);
 }
 
 #[test]
@@ -93,8 +93,8 @@ fn constants_are_chosen_for_factors_that_darboux_polynomials_show() {
     };
     let report =
         searched(&field("a = '0.5..0.9'", &[&rate(0), &rate(1), &rate(2)]), &Effort::default());
-    assert_eq!(told(&report, "integral"), ["(x + y + z)³/(x*y*z)"]);
-    let all = told(&report, "darboux-polynomial");
+    assert_eq!(told(&report, FoundKind::Integral), ["(x + y + z)³/(x*y*z)"]);
+    let all = told(&report, FoundKind::DarbouxPolynomial);
     assert!(all.iter().all(|own| own.len() < 20), "{all:?}");
 }
 
@@ -103,12 +103,13 @@ fn densities_are_positive_or_finite_where_they_can_be() {
     let halphen = "title = 'x'\n[state]\na = '-1..1'\nb = '1..2'\nc = '2..3'\n[field]\n\
                    a = 'b*c − a*(b + c)'\nb = 'c*a − b*(c + a)'\nc = 'a*b − c*(a + b)'\n";
     let report = searched(halphen, &Effort::default());
-    let density = report.found.iter().find(|own| own.kind == "density").expect("a density");
+    let density =
+        report.found.iter().find(|own| own.kind == FoundKind::Density).expect("a density");
     assert_eq!(density.evidence.sign, Some(DensitySign::Positive), "{density:?}");
     // 1/x² is infinite at x = 0, and x/y an integral.
     let falling = "title = 'x'\n[state]\nx = '-1..1'\ny = '-1..1'\n[field]\nx = '−x'\ny = '−y'\n";
     let report = searched(falling, &Effort::default());
-    assert_eq!(told(&report, "density"), ["1/(x² + y²)"]);
+    assert_eq!(told(&report, FoundKind::Density), ["1/(x² + y²)"]);
 }
 
 #[test]
@@ -127,6 +128,6 @@ fn the_masses_on_constraints_are_a_density() {
                 [lagrangian]\nkinetic = \"(M*(x'^2 + y'^2) + J*phi'^2 + m*(U^2 + V^2))/2\"\n\
                 potential = 's^2'\nconstraints = [\"y'*cos(phi) = x'*sin(phi)\"]\n";
     let report = searched(text, &Effort { degree: 1, ..Effort::default() });
-    let all = told(&report, "density");
+    let all = told(&report, FoundKind::Density);
     assert!(all.len() == 1 && all[0].contains("M*m*s²"), "{all:?}: {:?}", report.found);
 }

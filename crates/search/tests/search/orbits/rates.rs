@@ -1,6 +1,6 @@
 //! Functions whose rate is an integral, and factors on whose zeros the motion has integrals of its own.
 
-use liouville_search::SearchReport;
+use liouville_search::{FoundKind, SearchReport};
 
 use super::{Effort, field, searched};
 
@@ -16,15 +16,15 @@ function = 'p²/2 + 1/x²'
 pairs = [['x', 'p']]
 ";
     let found = searched(text, &Effort::default());
-    let own = found.found.iter().find(|own| own.kind == "function-of-constant-rate");
+    let own = found.found.iter().find(|own| own.kind == FoundKind::ConstantRate);
     let own = own.expect("(xp)' = 2H");
-    assert_eq!(own.formula, "x*p");
+    assert_eq!(own.text(), "x*p");
     assert_eq!(own.with.len(), 1);
-    assert!(own.with[0].1.contains("2*"), "{:?}", own.with);
+    assert!(own.with[0].text().contains("2*"), "{:?}", own.with);
 }
 
 fn darboux(report: &SearchReport) -> usize {
-    report.found.iter().filter(|own| own.kind == "darboux-polynomial").count()
+    report.found.iter().filter(|own| own.kind == FoundKind::DarbouxPolynomial).count()
 }
 
 #[test]
@@ -39,7 +39,7 @@ y = '-2..2'
 \"y'\" = '-|x|/x'
 ";
     let found = searched(text, &Effort::default());
-    let own: Vec<&str> = found.found.iter().map(|own| own.formula.as_str()).collect();
+    let own: Vec<&str> = found.found.iter().map(|own| own.text()).collect();
     assert!(!own.iter().any(|own| *own == "x/|x|" || *own == "|x|/x"), "{own:?}");
 }
 
@@ -48,7 +48,7 @@ fn factors_with_integrals_on_their_zeros_are_found() {
     // Chazy: the discriminant, of degree 4, vanishes along rational curves.
     let chazy = searched(&field("", &["y", "z", "2*x*z - 3*y²"]), &Effort::default());
     assert_eq!(darboux(&chazy), 1);
-    assert_eq!(chazy.formulas("density").count(), 1);
+    assert_eq!(chazy.formulas(FoundKind::Density).count(), 1);
     // The relativistic chain of Toda, of three particles: five factors, one of them an exponential's.
     let text = "
 title = 'relativistic chain'
@@ -64,7 +64,7 @@ c = 'vector(2, 0.5..2)'
 ";
     let toda = searched(text, &Effort::default());
     assert_eq!(darboux(&toda), 5);
-    assert_eq!(toda.formulas("density").count(), 1);
+    assert_eq!(toda.formulas(FoundKind::Density).count(), 1);
 }
 
 #[test]
@@ -79,7 +79,7 @@ function = '(p,p)/2 + (u,u)/2'
 pairs = [['u', 'p']]
 ";
     let found = searched(text, &Effort { blind: true, ..Effort::default() });
-    assert_eq!(found.formulas("integral").count(), 6, "besides the energy");
+    assert_eq!(found.formulas(FoundKind::Integral).count(), 6, "besides the energy");
 }
 
 #[test]
@@ -96,9 +96,9 @@ function = 'y²*(p² + q²)/2'
 pairs = [['x', 'p'], ['y', 'q']]
 ";
     let found = searched(text, &Effort::default());
-    let own = found.found.iter().find(|own| own.kind == "further-integral");
+    let own = found.found.iter().find(|own| own.kind == FoundKind::FurtherIntegral);
     let own = own.expect("it is a function of the others, and no polynomial in them");
-    assert!(own.formula.contains("2*x*y*q") && own.with.is_empty(), "{own:?}");
+    assert!(own.text().contains("2*x*y*q") && own.with.is_empty(), "{own:?}");
 }
 
 #[test]
@@ -110,9 +110,9 @@ fn rates_may_be_integrals_of_factors_and_angles() {
     ];
     for (rates, function, rate) in cases {
         let found = searched(&field("", &rates), &Effort::default());
-        let mut own = found.found.iter().filter(|own| own.kind == "function-of-constant-rate");
+        let mut own = found.found.iter().filter(|own| own.kind == FoundKind::ConstantRate);
         let is_wanted =
-            own.any(|own| own.formula.contains(function) && own.with[0].1.contains(rate));
+            own.any(|own| own.text().contains(function) && own.with[0].text().contains(rate));
         assert!(is_wanted, "{function}");
     }
 }
@@ -121,8 +121,8 @@ fn rates_may_be_integrals_of_factors_and_angles() {
 fn roots_of_constant_rate_and_fields_on_a_line_are_told() {
     let line = |parameters: &str, rate: &str| {
         let found = searched(&field(parameters, &[rate]), &Effort::default());
-        let own = found.found.into_iter().filter(|own| own.kind == "function-of-constant-rate");
-        let own: Vec<String> = own.map(|own| own.formula).collect();
+        let own = found.found.into_iter().filter(|own| own.kind == FoundKind::ConstantRate);
+        let own: Vec<String> = own.map(|own| own.text().to_string()).collect();
         assert_eq!(own.len(), 1, "{rate}: {own:?}");
         own
     };
@@ -137,5 +137,5 @@ fn roots_of_constant_rate_and_fields_on_a_line_are_told() {
 fn densities_have_numbers_as_exponents() {
     let parameters = "a = '0.5..2'\nb = '0.5..2'\nc = '0.5..2'\nd = '0.5..2'";
     let found = searched(&field(parameters, &["x*(a - b*y)", "y*(c*x - d)"]), &Effort::default());
-    assert_eq!(found.formulas("density").collect::<Vec<_>>(), ["1/(y*x)"]);
+    assert_eq!(found.formulas(FoundKind::Density).collect::<Vec<_>>(), ["1/(y*x)"]);
 }

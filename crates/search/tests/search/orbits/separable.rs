@@ -1,6 +1,6 @@
 //! Separable Hamiltonians: integrals in one coordinate and its momentum, beside the energy.
 
-use liouville_search::Effort;
+use liouville_search::{Effort, FoundKind};
 
 use super::searched;
 
@@ -17,11 +17,11 @@ fn kerr(term: &str) -> String {
 #[test]
 fn carters_integral_is_found_for_all_parameters() {
     let report = searched(&kerr(""), &Effort::default());
-    let integrals: Vec<&str> = report.formulas("integral").collect();
+    let integrals: Vec<&str> = report.formulas(FoundKind::Integral).collect();
     let [carter] = integrals[..] else { panic!("{integrals:?}") };
     assert!(carter.contains("energy") && carter.contains("q²"), "{carter}");
     assert!(!carter.contains("pr"), "in one coordinate alone: {carter}");
     // A term in both coordinates.
     let report = searched(&kerr(" + r*cos(θ)"), &Effort::default());
-    assert_eq!(report.formulas("integral").count(), 0, "{:?}", report.found);
+    assert_eq!(report.formulas(FoundKind::Integral).count(), 0, "{:?}", report.found);
 }
