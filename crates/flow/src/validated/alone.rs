@@ -5,11 +5,13 @@
 //! ```
 //!
 //! A closed orbit that begins in the first box, with a period in its box, goes through the others. If
-//! Krawczyk's operator maps all of them into their interior, there is one zero in them: the orbit found.
+//! Krawczyk's operator maps all of them into their interior, there is one zero in them: the orbit found. Closed
+//! orbits with other values of the energy or of an integral count, too: there is one for each of the values that
+//! states in the first box have, and its period is bounded.
 
 use super::course::Course;
 use super::division::DIVISIONS;
-use super::enclosure::Enclosure;
+use super::enclosure::{Enclosure, raised};
 use super::forward::Cloud;
 use super::motion::Boxed;
 use super::shooting::{combined, times};
@@ -61,14 +63,28 @@ pub fn is_alone(
             continue;
         }
         let Some(reach) = search.reach(first, late) else { continue };
+        let family = search.family(request, first);
+        let others = family.as_ref().map(|column| search.inverse.bounds(column));
+        let sum = |others: &Vec<f64>| -> Vec<f64> {
+            offsets.iter().zip(others).map(|(a, b)| raised(a + b, 1)).collect()
+        };
+        let offsets = others.as_ref().map_or_else(|| offsets.clone(), sum);
         let course = Course { search: &search, offsets: &offsets, radii: &offsets };
+        // An orbit of the period stated may be wrong in another respect.
+        let shift = (nodes.period - request.period).abs();
+        let is_late = (found.1.mid - request.period).abs() > unit + found.1.rad;
+        let differs = |image: f64| 1.01 * (image + unit + ROUNDING * nodes.period) < shift;
         let speed = search.frames.phase.iter().map(|x| x * x).sum::<f64>().sqrt();
         let sides = WIDER.iter().map(|wider| wider * reach);
         let sides = sides.chain(WIDE.iter().map(|share| share * speed * late));
         let alone = sides.filter(|side| *side >= reach).any(|side| {
             let mut radii = vec![side; offsets.len()];
             radii[offsets.len() - 1] = late;
-            course.is_unique(&radii)
+            let images = course
+                .images(&radii)
+                .filter(|images| images.iter().zip(&radii).all(|(image, radius)| image < radius));
+            let is_other = |images: &Vec<f64>| images.last().copied().is_some_and(differs);
+            images.is_some_and(|images| family.is_none() || !is_late || is_other(&images))
         });
         if alone {
             return Ok(true);
@@ -78,6 +94,34 @@ pub fn is_alone(
 }
 
 impl OrbitSearch<'_> {
+    /// Encloses by how much the equations change for the closed orbits that begin in a box of this radius about the
+    /// first node, as conserved functions have other values on them; `None` where all values are stated.
+    fn family(&self, request: &Request<'_>, first: f64) -> Option<Boxed> {
+        let Self { shooting, nodes, .. } = self;
+        let functions = &shooting.functions;
+        let is_stated = |index: usize| {
+            index < functions.of_level
+                || index == functions.of_level && request.keeps_energy && request.energy.is_some()
+        };
+        if functions.used().iter().all(|index| is_stated(*index)) {
+            return None;
+        }
+        let first: Boxed = nodes.states[0].iter().map(|x| Enclosure::about(*x, first)).collect();
+        let gaps = functions.sharp(&nodes.states[0], &shooting.values);
+        let slopes = functions.slopes(&first);
+        let change = |((index, gap), slope): ((&usize, &Enclosure), &Boxed)| {
+            let across = slope.iter().zip(&first).map(|(slope, x)| slope.magnitude() * x.rad);
+            let size = gap.magnitude() + across.sum::<f64>();
+            let size = if is_stated(*index) { 0.0 } else { raised(size, slope.len() + 2) };
+            Enclosure::about(0.0, size)
+        };
+        let changes: Boxed = functions.used().iter().zip(&gaps).zip(&slopes).map(change).collect();
+        let still = shooting.motion.dimension - functions.len();
+        let node = std::iter::repeat_n(Enclosure::ZERO, still).chain(changes);
+        let rows = node.collect::<Boxed>().repeat(nodes.states.len());
+        Some(rows.into_iter().chain([Enclosure::ZERO]).collect())
+    }
+
     /// Radius of a box about the first node that holds all motions that begin no farther from the start
     /// than `gap`, the distance of this node, where they have its phase. `None` where the velocity is
     /// not nearly the same all over the box.

@@ -71,14 +71,20 @@ impl Course<'_> {
 
     /// Whether Krawczyk's test proves that there is one orbit alone in wider boxes.
     pub fn is_unique(&self, radii: &[f64]) -> bool {
+        let images = self.images(radii);
+        images.is_some_and(|images| images.iter().zip(radii).all(|(image, radius)| image < radius))
+    }
+
+    /// Bounds by how much Krawczyk's operator moves each unknown of boxes from the nodes; `None` where a step is not
+    /// proved.
+    pub fn images(&self, radii: &[f64]) -> Option<Vec<f64>> {
         let OrbitSearch { shooting, nodes, frames, inverse } = self.search;
         let starts = boxes(nodes, Some(radii));
         let period = Enclosure::about(nodes.period, radii[radii.len() - 1]);
-        let Ok(passages) = passages(shooting, nodes, &starts, period) else { return false };
+        let passages = passages(shooting, nodes, &starts, period).ok()?;
         let columns = shooting.derivative(nodes, frames, &starts, &passages);
         let (moved, _) = inverse.defects(&columns, radii);
-        let images = self.offsets.iter().zip(&moved).map(|(z, d)| raised(z + d, 1));
-        images.zip(radii).all(|(image, radius)| image < *radius)
+        Some(self.offsets.iter().zip(&moved).map(|(z, d)| raised(z + d, 1)).collect())
     }
 
     /// Height (v̂, x - x̂₀) of a box over the surface of the phase.

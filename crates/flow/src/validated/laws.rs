@@ -1,10 +1,11 @@
 //! Equations of a motion as they enter a proof: parameters, some of them loose, and the functions
 //! that the motion conserves.
 
+use crate::motion::presence::as_written;
 use crate::motion::recorded::{Loose, filled};
 use liouville::formula::Formula;
 use liouville::graph::Expr;
-use liouville::mechanics::{Model, Phase};
+use liouville::mechanics::{LevelFunction, Model, Phase};
 use liouville::number::rational::Rational;
 use liouville::scalar::Scalar;
 use num_dual::Dual;
@@ -25,6 +26,18 @@ pub struct Laws<'l> {
 }
 
 impl<'l> Laws<'l> {
+    /// Records all formulas as written, those of conserved functions too: one that jumps, or has no value, is not kept
+    /// where it does, though its rate may be 0 on both sides.
+    pub fn as_written(&self, phase: &Phase<'_, Expr>) -> Vec<Expr> {
+        let level = self.model.level.iter().filter_map(|own| match &own.function {
+            LevelFunction::Formula(formula) => Some(formula),
+            _ => None,
+        });
+        let mut written = as_written(phase);
+        written.extend(phase.literal_values(level.chain(self.integrals.iter().copied())));
+        written
+    }
+
     /// Point over recorded scalars, the loose parameters given by variables between -1 and 1.
     pub fn point(&self, state: &[Expr], loose: &[Expr]) -> Phase<'l, Expr> {
         Phase::new(self.model, &filled(self.parameters, self.loose, loose), state)

@@ -7,7 +7,6 @@ use super::plan::{Plan, RowRule};
 use super::sharp;
 use super::tail::{self, End};
 use crate::error::FlowError;
-use crate::motion::presence::as_written;
 use crate::taylor::compile::proved::passed;
 use crate::taylor::form::Row;
 use crate::taylor::program::TaylorProgram;
@@ -267,7 +266,7 @@ fn plan(
         let rest = rates.split_off(dimension.min(rates.len()));
         rates.extend(free.iter().map(|_| Expr::rational(&Rational::from(0))));
         rates.extend(rest);
-        (rates, if with_all { as_written(&phase) } else { Vec::new() })
+        (rates, if with_all { laws.as_written(&phase) } else { Vec::new() })
     })?;
     let left_out = graph.left_out(&rates, &written);
     rates.extend(left_out);

@@ -10,7 +10,6 @@ use super::motion::{Boxed, steps};
 use super::plan::Plan;
 use super::replay::ProofData;
 use crate::error::FlowError;
-use crate::motion::presence::as_written;
 use crate::taylor::compile::proved::passed;
 use crate::taylor::program::TaylorProgram;
 use liouville::formula::Value;
@@ -108,7 +107,7 @@ fn plan(laws: &Laws<'_>) -> Result<Option<Plan>, FlowError> {
         let phase = laws.point(state, free).with(&changed, state);
         let mut rates = phase.field().to_vec();
         rates.extend((0..still).map(|_| Expr::rational(&Rational::from(0))));
-        (rates, as_written(&phase))
+        (rates, laws.as_written(&phase))
     })?;
     if graph.inputs() > dimension + still {
         return Err(FlowError::Antiderivative);

@@ -67,7 +67,7 @@ fn no_integral(
     counts::count(case, Degrees::Decisive, effort, &mut report, &mut |_| {})?;
     let class = format!(
         "a polynomial of degree at most {most} in the velocities, with any smooth coefficients on any \
-         open set of positions"
+         connected open set of positions"
     );
     let dimension = match bound(&report.counts, most) {
         None => {

@@ -46,3 +46,23 @@ fn an_orbit_that_begins_nearer_to_the_start_refutes_nothing_about_another() {
     assert_eq!(between.verdict, Verdict::Undecided, "{:?}", between.evidence);
     assert_eq!(claim("0.00003").verdict, Verdict::Proved, "B itself");
 }
+
+#[test]
+fn closed_orbits_of_other_energies_count() {
+    let claim = |period: &str, x: &str, y: &str| {
+        judged(&format!(
+            "title = 'two oscillators'\n[state]\nx = '-2..2'\ny = '-1/5..1/5'\np = '-3..3'\nq = '-1..1'\n[let]\n\
+             H = '(p² + 100*q²)/2 + (x² + 100*y²)/2 + 50*x²*y²'\n[field]\n\"x'\" = 'p'\n\"y'\" = 'q'\n\
+             \"p'\" = '−x − 100*x*y²'\n\"q'\" = '−y − x²*y'\n[[claim]]\nclosed-orbit = {period}\n\
+             state = {{ x = '{x}', y = '{y}' }}\nintegrals = ['H']\n"
+        ))
+    };
+    let meant = claim("4.7680220273", "1.00000000091", "0.100000000091");
+    assert_eq!(meant.verdict, Verdict::Proved, "{:?}", meant.evidence.reason);
+    // Five times as far from the orbit meant, and found on another one.
+    let between = claim("4.7680220273", "1.000000001", "0.1");
+    assert_eq!(between.verdict, Verdict::Undecided, "{:?}", between.evidence);
+    // All energies near that of the start have periods near 4.768022.
+    let wrong = claim("4.7685", "1.000000001", "0.1");
+    assert_eq!(wrong.verdict, Verdict::Refuted, "{:?}", wrong.evidence.reason);
+}

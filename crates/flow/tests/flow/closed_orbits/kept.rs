@@ -42,3 +42,31 @@ fn constraints_and_equations_of_vectors_are_kept_as_functions() {
     );
     assert_eq!(plane.verdict, Verdict::Proved, "{:?}", plane.evidence.reason);
 }
+
+#[test]
+fn functions_that_jump_along_a_motion_are_not_kept() {
+    // z grows for ever, and atan2 falls back by 2π at each turn.
+    let turning = |level: &str, integrals: &str| {
+        judged(&format!(
+            "title = 'x'\n[state]\nx = '-2..2'\ny = '-2..2'\nz = '-10..10'\n[let]\nF = 'z - atan2(y,x)/1000'\n[field]\n\
+             \"x'\" = 'x*(1-x²-y²) - y'\n\"y'\" = 'y*(1-x²-y²) + x'\n\"z'\" = '1/1000'\n{level}[[claim]]\n\
+             closed-orbit = 6.28\nstate = {{ x = '1' }}\n{integrals}"
+        ))
+    };
+    let grows = turning("", "integrals = ['F']\n");
+    assert_ne!(grows.verdict, Verdict::Proved, "{:?}", grows.evidence.theorem);
+    let grows = turning("[level]\nequations = ['F = 0']\n", "");
+    assert_ne!(grows.verdict, Verdict::Proved, "{:?}", grows.evidence.theorem);
+    // The function jumps where x = 0, or has a value for x > 3/2 alone.
+    let springs = |function: &str| {
+        judged(&format!(
+            "title = 'x'\n[state]\nx = '-2..2'\ny = '-2..2'\nz = '-1/2..1/2'\n[let]\nH = 'y²/2+(1+z)*x²/2'\n[field]\n\
+             \"x'\" = 'y'\n\"y'\" = '-(1+z)*x'\n\"z'\" = '0'\n[[claim]]\nclosed-orbit = 6.28\nstate = {{ x = '1' }}\n\
+             integrals = ['H', '{function}']\n"
+        ))
+        .verdict
+    };
+    assert_ne!(springs("z + atan2(x, 0)/1000"), Verdict::Proved);
+    assert_ne!(springs("z + (√((x - 3/2)²) - (x - 3/2))*x/1000 + 0*√(x - 3/2)"), Verdict::Proved);
+    assert_eq!(springs("z"), Verdict::Proved);
+}

@@ -45,15 +45,27 @@ fn one_turn_of_a_circle_is_least_and_two_are_not() {
 }
 
 #[test]
+#[ignore = "slow: as for those above, with up to twelve turns"]
 fn turns_of_random_circles_are_counted() {
     let mut number: u64 = 17;
     let mut random = |below: u64| {
         number = number.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963);
         (number >> 33) % below
     };
-    for trial in 0..3 {
-        let (turns, speed) = (1 + random(12), 1 + random(30));
-        let angle = random(6283) as f64 / 1000.0;
+    let trials = std::array::from_fn::<_, 3, _>(|_| {
+        (1 + random(12), 1 + random(30), random(6283) as f64 / 1000.0)
+    });
+    are_counted(&trials);
+}
+
+#[test]
+fn turns_of_circles_are_counted() {
+    are_counted(&[(1, 13, 0.7), (3, 7, 2.5)]);
+}
+
+/// Asserts that turns are counted on circles, for turns, speed in tenths, and angle of the start.
+fn are_counted(trials: &[(u64, u64, f64)]) {
+    for (trial, (turns, speed, angle)) in trials.iter().copied().enumerate() {
         let period = 2.0 * std::f64::consts::PI * 10.0 / speed as f64 * turns as f64;
         let (x, y) = (angle.cos(), angle.sin());
         let claim =
@@ -150,6 +162,7 @@ fn cycles_of_rossler_are_least() {
 }
 
 #[test]
+#[ignore = "slow: the same orbits are decided in catalogue.rs, and least periods of others above"]
 fn orbits_of_the_catalogue_have_their_least_periods() {
     let van_der_pol = catalogue("classical/flows/van-der-pol-cycle.toml");
     for claim in [of_figure(8), of_figure(6), &van_der_pol].into_iter().flatten() {
