@@ -87,6 +87,13 @@ fn holonomic_constraints_leave_divisors_known() {
     );
     let text = text.replace("title = 'x'\n", "title = 'x'\nsystem = 'nonholonomic'\n");
     assert_eq!(verdicts(&text), [Proved, Proved, Refuted]);
+    // A parallelogram: the first minor of the reactions is 0 where all rods lie in one line.
+    let linkage = "title = 'x'\nsystem = 'nonholonomic'\n[parameters]\na = '0.5..1'\nb = '1.5..2'\n[state]\nA = '-3..3'\n\
+                   B = '-3..3'\nC = '-3..3'\n\"A'\" = '-1..1'\n\"B'\" = '-1..1'\n\"C'\" = '-1..1'\n[lagrangian]\n\
+                   kinetic = \"(A'^2+B'^2+C'^2)/2\"\nconstraints = ['a*cos(A) + b*cos(B) - a*cos(C) = b', \
+                   'a*sin(A) + b*sin(B) - a*sin(C) = 0']\n";
+    let claims = claim("integral = 'energy'") + &claim("identity = \"A' = C'\"");
+    assert_eq!(verdicts(&(linkage.to_string() + &claims)), [Proved, Refuted]);
 }
 
 #[test]

@@ -64,6 +64,7 @@ impl Lagrangian {
                 match is_solved && kept.contains(&true) {
                     true => {
                         self.lies_over_positions(own, model, &velocities)
+                            || own.are_definite(at, free)
                             || own.are_nowhere_zero(at, free)
                     }
                     false => own.are_regular_at(at, free),
@@ -107,7 +108,7 @@ impl Lagrangian {
         velocities: &[usize],
     ) -> Result<RecordedMasses, Fault> {
         let free = model.free_components();
-        let (graph, (masses, divisors, level, largest_block)) =
+        let (graph, (masses, [pivots, divisors], level, largest_block)) =
             record(free + model.dimension(), |inputs| {
                 let (parameters, state) = inputs.split_at(free);
                 let phase = Phase::new(model, parameters, state);
@@ -117,10 +118,16 @@ impl Lagrangian {
                 let level = model.level.iter().map(|own| phase.level_function(&own.function));
                 let level = level.flat_map(|own| [own, -own]).collect();
                 let masses = self.masses(&phase.configuration, velocities);
+                let pivots = divisors_of(|| {
+                    solve_positive(
+                        masses.clone(),
+                        vec![<Expr as num_traits::Zero>::zero(); masses.len()],
+                    );
+                });
                 let largest = blocks(&masses).iter().map(Vec::len).max().unwrap_or_default();
-                (masses.concat(), divisors, level, largest)
+                (masses.concat(), [pivots, divisors], level, largest)
             })?;
-        Ok(RecordedMasses { graph, masses, divisors, level, largest_block })
+        Ok(RecordedMasses { graph, masses, pivots, divisors, level, largest_block })
     }
 
     /// Whether what holds on an open set of the level holds on one of positions: the level has no other equations than

@@ -7,7 +7,7 @@ use crate::number::ball::{Ball, Balls};
 use crate::number::float::Float;
 use crate::number::rational::Rational;
 use crate::number::{BinaryOperation, UnaryFunction};
-use crate::proof::{Extent, InputDistribution, Prover, is_nowhere_zero};
+use crate::proof::{Extent, InputDistribution, Prover, is_nowhere_zero, sign};
 use crate::scalar::Scalar;
 
 /// Number of states at which the signs are looked at.
@@ -22,6 +22,8 @@ const SEED: u64 = 1;
 pub struct RecordedMasses {
     pub graph: Graph,
     pub masses: Vec<Expr>,
+    /// Pivots of the elimination of the masses alone.
+    pub pivots: Vec<Expr>,
     pub divisors: Vec<Expr>,
     /// Level functions and their opposites.
     pub level: Vec<Expr>,
@@ -44,6 +46,35 @@ impl RecordedMasses {
     /// Whether each divisor is known to be 0 at no state of a place whose equations are solved, by intervals, for each
     /// choice of listed values.
     pub fn are_nowhere_zero(&self, place: (&Model, &Chart, &[bool]), free: &[Draw]) -> bool {
+        self.all_choices(place, free, &|drawn, extents| {
+            let is_nonzero = |divisor: &Expr| {
+                drawn.graph.constant_value(*divisor).is_some_and(|value| !value.is_zero())
+                    || is_nowhere_zero(&drawn.graph, extents, &drawn.level, &[*divisor])
+            };
+            drawn.divisors.iter().all(is_nonzero)
+        })
+    }
+
+    /// Whether the masses are known to be positive definite at all states of such a place: where what else elimination
+    /// divides by, the leading minors of a M⁻¹ aᵀ, vanishes, the determinant does.
+    pub fn are_definite(&self, place: (&Model, &Chart, &[bool]), free: &[Draw]) -> bool {
+        self.all_choices(place, free, &|drawn, extents| {
+            let is_positive = |pivot: &Expr| match drawn.graph.constant_value(*pivot) {
+                Some(value) => !value.is_zero() && !value.is_negative(),
+                None => sign(&drawn.graph, extents, &[], &drawn.level, *pivot)
+                    .is_some_and(|known| known.is_positive && !known.may_vanish),
+            };
+            drawn.pivots.iter().all(is_positive)
+        })
+    }
+
+    /// Whether something holds of them and of the extents of the draws, for each choice of listed values.
+    fn all_choices(
+        &self,
+        place: (&Model, &Chart, &[bool]),
+        free: &[Draw],
+        holds: &dyn Fn(&Self, &[Extent]) -> bool,
+    ) -> bool {
         let (model, chart, kept) = place;
         let draws = [model.parameter_draws(), chart.draws(free, kept)].concat();
         let Some(choices) = combinations(&draws) else { return false };
@@ -51,11 +82,7 @@ impl RecordedMasses {
             let Ok(drawn) = self.drawn(place, choice) else { return false };
             let fixed = draws.iter().zip(choice).map(|(draw, value)| draw.fixed(value.as_ref()));
             let extents: Vec<Extent> = fixed.map(|draw| draw.extent()).collect();
-            let is_nonzero = |divisor: &Expr| {
-                drawn.graph.constant_value(*divisor).is_some_and(|value| !value.is_zero())
-                    || is_nowhere_zero(&drawn.graph, &extents, &drawn.level, &[*divisor])
-            };
-            drawn.divisors.iter().all(is_nonzero)
+            holds(&drawn, &extents)
         })
     }
 
@@ -98,7 +125,7 @@ impl RecordedMasses {
         (model, chart, kept): (&Model, &Chart, &[bool]),
         choice: &[Option<Rational>],
     ) -> Result<Self, Fault> {
-        let all = [&self.masses[..], &self.divisors, &self.level].concat();
+        let all = [&self.masses[..], &self.pivots, &self.divisors, &self.level].concat();
         let reached = self.graph.reached(all.iter().copied());
         let symbols = model.free_components() + model.dimension();
         let further = self.graph.inputs() - symbols;
@@ -114,9 +141,10 @@ impl RecordedMasses {
             all.iter().map(|own| values[self.graph.place(*own)]).collect::<Option<Vec<Expr>>>()
         })?;
         let mut masses = made.ok_or(Fault::ForeignValue)?;
-        let mut divisors = masses.split_off(self.masses.len());
+        let mut pivots = masses.split_off(self.masses.len());
+        let mut divisors = pivots.split_off(self.pivots.len());
         let level = divisors.split_off(self.divisors.len());
-        Ok(Self { graph, masses, divisors, level, largest_block: self.largest_block })
+        Ok(Self { graph, masses, pivots, divisors, level, largest_block: self.largest_block })
     }
 
     /// Whether each divisor is known to be 0 on no open set of states: by a ball at one of them, where it is one
