@@ -12,6 +12,8 @@ use liouville::number::rational::Rational;
 
 /// Number of coefficients of a series.
 pub(super) const LENGTH: usize = 34;
+/// Largest order of a product: terms of larger ones are not among the coefficients that stand for a quotient.
+const MOST_ORDER: usize = 29;
 /// Largest number of products of unknowns.
 const MOST_TERMS: usize = 6;
 /// Largest number of bits of a coefficient.
@@ -183,6 +185,9 @@ impl Germ {
             let is_exact = |own: &Series| !is_zero(own) || own.rest.iter().all(|rest| *rest == 0.0);
             let is_bounded = self.terms.values().all(is_exact);
             self.terms.retain(|_, series| !is_zero(series));
+            if !is_bounded && self.terms.is_empty() {
+                return None;
+            }
             if !is_bounded {
                 // What cancels in all coefficients known is no longer bounded.
                 self.terms.values_mut().for_each(|own| own.rest = [f64::INFINITY; RADII]);
@@ -191,12 +196,19 @@ impl Germ {
         self.bounded()
     }
 
+    /// The product; `None` where one of two terms has an order beyond those that a series shows.
     pub(super) fn product(&self, other: &Self) -> Option<Self> {
         let mut all = Self::of_constant(number(0));
         for (a, x) in &self.terms {
             for (b, y) in &other.terms {
                 let mut powers: BTreeMap<usize, u32> = a.iter().copied().collect();
                 b.iter().for_each(|(place, power)| *powers.entry(*place).or_default() += power);
+                let orders = [x, y].map(|own| own.first.iter().position(|x| !x.is_zero()));
+                if let [Some(m), Some(n)] = orders
+                    && m + n > MOST_ORDER
+                {
+                    return None;
+                }
                 let term = BTreeMap::from([(powers.into_iter().collect(), x.product(y))]);
                 all = all.plus(&Self { terms: term }, &number(1))?;
             }

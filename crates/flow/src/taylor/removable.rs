@@ -364,4 +364,23 @@ mod tests {
         assert!(found(|x| [x - number(1, 1_000_000), number(1, 1) - x.exp()]).is_none());
         assert!(found(|x| [x * x, x]).is_none(), "rational as written");
     }
+
+    #[test]
+    fn no_term_of_a_high_order_is_lost() {
+        let power = |x: Expr, n: usize| (0..n).fold(number(1, 1), |power, _| power * x.sin());
+        let with = |n: usize, other: bool| {
+            let (graph, factors) = record(2, |x| {
+                let factor = if other { x[1] } else { number(1000, 1) };
+                [x[0].sin() + factor * power(x[0], n), x[0]]
+            })
+            .expect("records");
+            let [dividend, divisor] = factors.map(|factor| graph.place(factor));
+            Removable::of(&graph, &[(dividend, 1), (divisor, -1)])
+        };
+        for other in [false, true] {
+            assert!(with(30, other).is_none() && with(40, other).is_none(), "{other}");
+            let reach = with(3, other).expect("a limit").reach;
+            assert!(with(29, other).is_none_or(|own| own.reach < reach), "{other}");
+        }
+    }
 }
