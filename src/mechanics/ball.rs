@@ -201,7 +201,8 @@ impl Dynamics for BallOnSurface {
 
     /// Returns μ(μ + D), by which ω is divided, and what the rate of γ is divided by: |∇F|² of a surface F = 0, or the
     /// determinant of γ ⊗ γ − ∂r of a support function.
-    fn divisors<T: Scalar>(&self, at: &Configuration<'_, T>) -> Vec<T> {
+    fn divisors<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
+        let at = &phase.configuration;
         let (moment, radius) = (self.value(at, &self.moment), self.value(at, &self.radius));
         let inertia = moment * (moment + self.value(at, &self.mass) * radius * radius);
         let across = match &self.surface {

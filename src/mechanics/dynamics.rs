@@ -136,7 +136,7 @@ pub(super) trait Dynamics {
     }
 
     /// Computes what the rates of a body or a ball are divided by; nothing for other systems.
-    fn divisors<T: Scalar>(&self, _: &Configuration<'_, T>) -> Vec<T> {
+    fn divisors<T: Scalar>(&self, _: &Phase<'_, T>) -> Vec<T> {
         Vec::new()
     }
 

@@ -123,6 +123,13 @@ impl Dynamics for FlatBase {
         vec![a1, a2, w2 / constants.curvature, -w1 / constants.curvature]
     }
 
+    /// Returns Ĩ₁₁Ĩ₂₂ − Ĩ₁₂² and the curvature.
+    fn divisors<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
+        let [_, _, r1, r2] = coordinates(phase);
+        let constants = self.constants(phase);
+        vec![constants.determinant_at([r1, r2]), constants.curvature]
+    }
+
     /// Energy ½(ω,Ĩω) + U.
     fn energy<T: Scalar>(&self, phase: &Phase<'_, T>) -> Option<T> {
         Some(self.total_energy(phase))
@@ -213,6 +220,10 @@ impl<T: Scalar> Constants<T> {
         self.inertia + point_mass(self.mass, &Vector3::new(r[0], r[1], self.height))
     }
 
+    fn determinant_at(&self, r: [T; 2]) -> T {
+        in_face(&self.inertia_at(r))
+    }
+
     /// Computes ω' with a further moment about the axes in the face.
     fn acceleration(&self, omega: [T; 2], r: [T; 2], moment: [T; 2]) -> [T; 2] {
         let inertia = self.inertia_at(r);
@@ -222,7 +233,7 @@ impl<T: Scalar> Constants<T> {
         let torque = (inertia * omega + self.gyrostat).cross(&omega)
             - r.cross(&omega.cross(&rate)) * self.mass
             + Vector3::new(moment[0], moment[1], T::zero());
-        let determinant = inertia[(0, 0)] * inertia[(1, 1)] - inertia[(0, 1)] * inertia[(0, 1)];
+        let determinant = in_face(&inertia);
         [
             (inertia[(1, 1)] * torque.x - inertia[(0, 1)] * torque.y) / determinant,
             (inertia[(0, 0)] * torque.y - inertia[(0, 1)] * torque.x) / determinant,
@@ -250,6 +261,11 @@ impl<T: Scalar> Constants<T> {
         };
         along(0) + along(1)
     }
+}
+
+/// Determinant of a matrix across the normal of the face.
+fn in_face<T: Scalar>(a: &Matrix3<T>) -> T {
+    a[(0, 0)] * a[(1, 1)] - a[(0, 1)] * a[(0, 1)]
 }
 
 fn coordinates<T: Scalar>(phase: &Phase<'_, T>) -> [T; 4] {

@@ -93,7 +93,7 @@ impl Model {
             let phase = Phase::new(self, &parameters, state);
             match &self.system {
                 System::Lagrangian(own) => (own.determinants(&phase), Vec::new()),
-                body => (body.divisors(&phase.configuration), phase.field().to_vec()),
+                body => (body.divisors(&phase), phase.field().to_vec()),
             }
         });
         recorded.is_ok_and(|(graph, (divisors, rates))| {

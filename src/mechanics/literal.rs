@@ -70,7 +70,7 @@ impl Phase<'_, Expr> {
         // Claims that do not contain the rates say nothing where there are none, either.
         let inverses = match system {
             System::Lagrangian(_) => self.inverse_divisors(),
-            _ => inverses(system.divisors(&self.configuration)),
+            _ => inverses(system.divisors(self)),
         };
         left_out(written, &inverses)
     }

@@ -100,7 +100,8 @@ impl Dynamics for Rubber {
     }
 
     /// Returns (γ, adj Ĩ γ) and D_T.
-    fn divisors<T: Scalar>(&self, at: &Configuration<'_, T>) -> Vec<T> {
+    fn divisors<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
+        let at = &phase.configuration;
         let (r, _) = self.0.shape.contact(at);
         vec![self.inertia_along_normal(at, &r), self.0.gamma_determinant(at)]
     }

@@ -189,7 +189,8 @@ impl Dynamics for Spinning {
     }
 
     /// Returns det Ĩ and D_T.
-    fn divisors<T: Scalar>(&self, at: &Configuration<'_, T>) -> Vec<T> {
+    fn divisors<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
+        let at = &phase.configuration;
         vec![self.pose(at).determinant, self.0.gamma_determinant(at)]
     }
 

@@ -213,8 +213,8 @@ impl System {
     }
 
     /// Computes what the rates of a body or a ball are divided by; nothing for other systems.
-    pub fn divisors<T: Scalar>(&self, at: &Configuration<'_, T>) -> Vec<T> {
-        for_each_kind!(self, one => one.divisors(at))
+    pub fn divisors<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
+        for_each_kind!(self, one => one.divisors(phase))
     }
 
     /// Computes (γ, rot r), which vanishes on |γ| = 1 exactly when ∂r/∂γ is symmetric across γ

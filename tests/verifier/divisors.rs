@@ -155,6 +155,11 @@ fn bodies_have_no_states_where_their_rates_have_no_value() {
                  mu = 'one of 0, 1'\nI = 'mu*E'\n[body]\nshape = 'ball'\n";
     let claims = claim("identity = 'mu = 1'") + &claim("density = '1'");
     assert_eq!(verdicts(&(light.to_string() + &claims)), [Proved, Proved]);
+    // A plate without inertia in its face, whose face is at the height of its centre.
+    let plate = "title = 'x'\nsystem = 'flat-base'\n[parameters]\nm = '0.5..2'\nk = '0.5..1'\nz = 'one of 0, 1'\n\
+                 c = '0.5..1'\nI = 'diag(0,0,c)'\n[body]\nheight = 'z'\n";
+    let claims = claim("identity = 'z = 1'") + &claim("integral = 'energy'");
+    assert_eq!(verdicts(&(plate.to_string() + &claims)), [Proved, Proved]);
     // D_T = 0 at the image alone.
     let image = "title = 'x'\nsystem = 'rolling-sphere'\n[parameters]\nm = '0.5..2'\nb1 = '0.5..2'\nb2 = '0.5..2'\n\
                  b3 = '0.5..2'\nB = 'diag(b1,b2,b3)'\nI = 'inertia(0.5..3)'\nk = '-sqrt(b3)/b1'\n[body]\n\

@@ -70,7 +70,7 @@ pub fn is_alone(
         };
         let offsets = others.as_ref().map_or_else(|| offsets.clone(), sum);
         let course = Course { search: &search, offsets: &offsets, radii: &offsets };
-        // An orbit of the period stated may be wrong in another respect.
+        // Of orbits of a family with the period stated nothing else is known.
         let shift = (nodes.period - request.period).abs();
         let is_late = (found.1.mid - request.period).abs() > unit + found.1.rad;
         let differs = |image: f64| 1.01 * (image + unit + ROUNDING * nodes.period) < shift;
@@ -84,7 +84,7 @@ pub fn is_alone(
                 .images(&radii)
                 .filter(|images| images.iter().zip(&radii).all(|(image, radius)| image < radius));
             let is_other = |images: &Vec<f64>| images.last().copied().is_some_and(differs);
-            images.is_some_and(|images| family.is_none() || !is_late || is_other(&images))
+            images.is_some_and(|images| family.is_none() || is_late && is_other(&images))
         });
         if alone {
             return Ok(true);

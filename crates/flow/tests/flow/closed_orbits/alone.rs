@@ -66,3 +66,15 @@ fn closed_orbits_of_other_energies_count() {
     let wrong = claim("4.7685", "1.000000001", "0.1");
     assert_eq!(wrong.verdict, Verdict::Refuted, "{:?}", wrong.evidence.reason);
 }
+
+#[test]
+fn orbits_of_a_family_may_be_of_another_kind() {
+    // At F = x² + v² the volume along the orbit changes by a multiple of F₀ − F, F₀ = 1 + 10⁻⁶/6.
+    let found = judged(
+        "title = 'family'\n[state]\nx = '-2..2'\nv = '-2..2'\ny = '-2..2'\nw = '-2..2'\n[let]\nF = 'x² + v²'\n\
+         Y = 'y - x - 3*(F - 1)'\nd = '(F - 1 - 1/6000000)/2'\n[field]\n\"x'\" = 'v'\n\"v'\" = '-x'\n\
+         \"y'\" = 'v - d*Y - w/2'\n\"w'\" = 'Y/2 - d*w'\n[[claim]]\nclosed-orbit = 6.2831853\n\
+         state = { x = '1', y = '1.000001' }\nintegrals = ['F']\ndivergence = 'negative'\n",
+    );
+    assert_ne!(found.verdict, Verdict::Refuted, "{:?}", found.evidence.reason);
+}
