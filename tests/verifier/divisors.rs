@@ -72,6 +72,17 @@ fn a_minor_that_is_0_on_a_part_of_a_level_hides_no_state() {
 }
 
 #[test]
+fn a_minor_that_is_0_where_one_of_several_equations_holds_hides_no_state() {
+    // For γ1 < 0 on |γ| = 1 the first mass is 0, and the determinant −1.
+    let text = "title = 'x'\nsystem = 'nonholonomic'\ncheck-weights = false\n[state]\n'ω' = 'vector(-2..2)'\n\
+                'γ' = 'vector(-2..2)'\n[field]\n\"γ'\" = 'γ × ω'\n[lagrangian]\nquasi-velocities = ['ω']\n\
+                algebra = 'so(3)'\nkinetic = '(((γ,γ)-1+γ1+|γ1|)*ω1^2 + 2*ω1*ω2 + 400*ω2^2 + ω3^2)/2'\n[level]\n\
+                equations = ['|γ| = 1', 'γ1 = 1/2', 'ω = 0']\n[[claim]]\n\
+                identity = \"ω1'*(|γ1|-γ1) = ω1'*(|γ1|-γ1) + γ1 - |γ1|\"\nwhere = '|γ| = 1'\nexpect = 'open'\n";
+    assert_eq!(verdicts(text), [Refuted]);
+}
+
+#[test]
 fn holonomic_constraints_leave_divisors_known() {
     // |q|² is a divisor that is 0 in space, and l² on the level.
     let text = lagrangian(

@@ -57,13 +57,17 @@ impl Lagrangian {
         if !level.is_empty() {
             places.push(vec![false; level.len()]);
         }
-        let is_solved = matches!(chart, Chart::Equations);
+        // A claim may stand where one of several equations holds.
+        if level.len() > 1 {
+            places.extend((0..level.len()).map(|own| (0..level.len()).map(|k| k == own).collect()));
+        }
+        let is_given = |kept: &[bool]| matches!(chart, Chart::Given(_)) && !kept.contains(&false);
         let is_regular = |own: &RecordedMasses| {
             let is_regular_at = |kept: &Vec<bool>| {
                 let at = (model, chart, &kept[..]);
-                match is_solved && kept.contains(&true) {
+                match kept.contains(&true) && !is_given(kept) {
                     true => {
-                        self.lies_over_positions(own, model, &velocities)
+                        self.lies_over_positions(own, (model, kept), &velocities)
                             || own.are_definite(at, free)
                             || own.are_nowhere_zero(at, free)
                     }
@@ -130,14 +134,14 @@ impl Lagrangian {
         Ok(RecordedMasses { graph, masses, pivots, divisors, level, largest_block })
     }
 
-    /// Whether what holds on an open set of the level holds on one of positions: the level has no other equations than
-    /// the constraints on velocities, and the divisors contain no velocities. Where the equations of motion have one
+    /// Whether what holds on an open set of a place holds on one of positions: it has no other equations than
+    /// constraints on velocities, and the divisors contain no velocities. Where the equations of motion have one
     /// solution, the slopes of the constraints by the velocities are independent, so that the level is projected to the
     /// positions by a submersion.
     fn lies_over_positions(
         &self,
         own: &RecordedMasses,
-        model: &Model,
+        (model, kept): (&Model, &[bool]),
         velocities: &[usize],
     ) -> bool {
         let is_constraint = |equation: &LevelEquation| match &equation.function {
@@ -151,7 +155,8 @@ impl Lagrangian {
         let mut steps = own.graph.steps().zip(reached);
         let is_velocity =
             |input: usize| input.checked_sub(free).is_some_and(|k| velocities.contains(&k));
-        model.level.iter().all(is_constraint)
+        let mut equations = model.level.iter().zip(kept).filter(|(_, kept)| **kept);
+        equations.all(|(equation, _)| is_constraint(equation))
             && !steps.any(|(step, reached)| match step {
                 Step::Input(input) => reached && is_velocity(input),
                 _ => false,

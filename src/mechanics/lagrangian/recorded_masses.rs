@@ -46,10 +46,10 @@ impl RecordedMasses {
     /// Whether each divisor is known to be 0 at no state of a place whose equations are solved, by intervals, for each
     /// choice of listed values.
     pub fn are_nowhere_zero(&self, place: (&Model, &Chart, &[bool]), free: &[Draw]) -> bool {
-        self.all_choices(place, free, &|drawn, extents| {
+        self.all_choices(place, free, &|drawn, extents, facts| {
             let is_nonzero = |divisor: &Expr| {
                 drawn.graph.constant_value(*divisor).is_some_and(|value| !value.is_zero())
-                    || is_nowhere_zero(&drawn.graph, extents, &drawn.level, &[*divisor])
+                    || is_nowhere_zero(&drawn.graph, extents, facts, &[*divisor])
             };
             drawn.divisors.iter().all(is_nonzero)
         })
@@ -58,22 +58,23 @@ impl RecordedMasses {
     /// Whether the masses are known to be positive definite at all states of such a place: where what else elimination
     /// divides by, the leading minors of a M⁻¹ aᵀ, vanishes, the determinant does.
     pub fn are_definite(&self, place: (&Model, &Chart, &[bool]), free: &[Draw]) -> bool {
-        self.all_choices(place, free, &|drawn, extents| {
+        self.all_choices(place, free, &|drawn, extents, facts| {
             let is_positive = |pivot: &Expr| match drawn.graph.constant_value(*pivot) {
                 Some(value) => !value.is_zero() && !value.is_negative(),
-                None => sign(&drawn.graph, extents, &[], &drawn.level, *pivot)
+                None => sign(&drawn.graph, extents, &[], facts, *pivot)
                     .is_some_and(|known| known.is_positive && !known.may_vanish),
             };
             drawn.pivots.iter().all(is_positive)
         })
     }
 
-    /// Whether something holds of them and of the extents of the draws, for each choice of listed values.
+    /// Whether something holds of them, of the extents of the draws and of the level functions of a place with their
+    /// opposites, which are not negative there, for each choice of listed values.
     fn all_choices(
         &self,
         place: (&Model, &Chart, &[bool]),
         free: &[Draw],
-        holds: &dyn Fn(&Self, &[Extent]) -> bool,
+        holds: &dyn Fn(&Self, &[Extent], &[Expr]) -> bool,
     ) -> bool {
         let (model, chart, kept) = place;
         let draws = [model.parameter_draws(), chart.draws(free, kept)].concat();
@@ -82,7 +83,9 @@ impl RecordedMasses {
             let Ok(drawn) = self.drawn(place, choice) else { return false };
             let fixed = draws.iter().zip(choice).map(|(draw, value)| draw.fixed(value.as_ref()));
             let extents: Vec<Extent> = fixed.map(|draw| draw.extent()).collect();
-            holds(&drawn, &extents)
+            let facts = drawn.level.chunks(2).zip(kept).filter(|(_, kept)| **kept);
+            let facts: Vec<Expr> = facts.flat_map(|(own, _)| own.iter().copied()).collect();
+            holds(&drawn, &extents, &facts)
         })
     }
 
