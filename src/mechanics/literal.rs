@@ -58,11 +58,12 @@ impl Phase<'_, Expr> {
     /// more, so that all that is written is asked then.
     pub fn hidden_in_motion(&self, written: &[Expr]) -> Vec<Expr> {
         let system = &self.model().system;
-        // Where elimination may divide by 0 on an open set, the states there count nevertheless.
+        // Where elimination may divide by 0 on an open set, the states there count nevertheless if the determinant
+        // of the masses and constraints is not 0.
         if let System::Lagrangian(own) = system
             && !own.has_known_divisors(self.model())
         {
-            return Vec::new();
+            return left_out(written, &inverses(own.determinants(self)));
         }
         if has_moduli(written) {
             return self.motion_as_written();

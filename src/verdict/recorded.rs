@@ -67,7 +67,10 @@ impl<'c> RecordedClaim<'c> {
             residual: residual(&claim.place),
             presence,
             requirement: {
-                let mut values = jet.phase.literal_values(claim.kind.formulas());
+                // Rates as they are solved for have no value where an open divisor is 0, though motions may.
+                let formulas = claim.kind.formulas().into_iter();
+                let known = formulas.filter(|own| open.is_empty() || !model.has_rates(own));
+                let mut values = jet.phase.literal_values(known);
                 values.extend(claim.kind.further_requirement(jet));
                 values
             },

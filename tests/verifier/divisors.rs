@@ -149,6 +149,19 @@ fn divisors_are_asked_at_limits_and_images() {
 }
 
 #[test]
+fn rates_are_asked_on_cells_that_no_drawn_state_meets() {
+    // For k > b the first mass is 0, and the determinant −1.
+    for (parameters, k) in [("k = '-1..1'\nb = '9999/10000'", "k"), ("b = 3", "t")] {
+        let claims = claim(&format!("identity = \"x''*(|{k}-b| + {k} - b) = 0\""))
+            + &claim("integral = 'energy'");
+        let kinetic = format!("(|{k}-b| - {k} + b)*x'^2/2 + x'*y' + 200*y'^2");
+        let text = lagrangian((parameters, &["x", "y"], 7), &kinetic, ("y", &claims));
+        let found = verdicts(&text);
+        assert_ne!(found[0], Proved, "{k}: {found:?}");
+    }
+}
+
+#[test]
 fn bodies_have_no_states_where_their_rates_have_no_value() {
     // A ball as large as its cavity, D_T = 0.
     let cavity = "title = 'x'\nsystem = 'rubber-sphere'\n[parameters]\nm = '0.5..2'\nR = 'one of 1/2, 1, 3/2'\n\

@@ -4,6 +4,7 @@
 mod limits;
 pub(crate) mod proved;
 mod simpler;
+mod voids;
 
 use crate::error::FlowError;
 use crate::taylor::compile::proved::PowersNear;
@@ -66,7 +67,7 @@ impl TaylorProgram {
             signs: Vec::new(),
             saturating: Vec::new(),
             is_exact: constants.is_none(),
-            moduli: if constants.is_some() { with_moduli(graph) } else { Vec::new() },
+            moduli: if constants.is_some() { voids::may_be_zero(graph) } else { Vec::new() },
             voids: Vec::new(),
             series: Vec::new(),
         };
@@ -134,16 +135,6 @@ fn constants(graph: &Graph) -> Vec<Option<DoubleDouble>> {
     values
 }
 
-/// Whether each step of a graph contains a modulus.
-fn with_moduli(graph: &Graph) -> Vec<bool> {
-    let mut found: Vec<bool> = Vec::with_capacity(graph.len());
-    for step in graph.steps() {
-        let is_modulus = matches!(step, Step::Unary(UnaryFunction::Abs, _));
-        found.push(is_modulus || step.arguments().any(|argument| found[argument]));
-    }
-    found
-}
-
 struct Compiler {
     uses: Vec<usize>,
     forms: Vec<Option<BilinearForm>>,
@@ -159,7 +150,7 @@ struct Compiler {
     signs: Vec<(Row, Row)>,
     /// Functions that tend to constants: argument, function.
     saturating: Vec<(Saturating, Row, Row)>,
-    /// Steps that contain moduli.
+    /// Steps that contain moduli and are not negative, by their form.
     moduli: Vec<bool>,
     /// Bases of roots that contain moduli: rows, the same with 1 in place of what is not positive, and
     /// rows that are 0 there and 1 elsewhere.

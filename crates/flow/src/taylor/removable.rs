@@ -145,7 +145,7 @@ fn parts(graph: &Graph, place: usize) -> Option<Vec<usize>> {
 }
 
 /// Steps as affine functions of others.
-fn affine(graph: &Graph, parts: &[usize]) -> BTreeMap<usize, Affine> {
+pub(super) fn affine(graph: &Graph, parts: &[usize]) -> BTreeMap<usize, Affine> {
     let mut all: BTreeMap<usize, Affine> = BTreeMap::new();
     for place in parts {
         let at = |a: usize| all.get(&a).cloned().unwrap_or_else(|| Affine::of_step(a));

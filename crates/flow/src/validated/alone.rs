@@ -108,9 +108,12 @@ impl OrbitSearch<'_> {
         }
         let first: Boxed = nodes.states[0].iter().map(|x| Enclosure::about(*x, first)).collect();
         let gaps = functions.sharp(&nodes.states[0], &shooting.values);
-        let slopes = functions.slopes(&first);
+        // With boxes of parameters the values change with these, too, each by a variable between −1 and 1.
+        let sides = first.iter().map(|x| x.rad).chain(std::iter::repeat(1.0));
+        let slopes = functions.gradients(&first);
         let change = |((index, gap), slope): ((&usize, &Enclosure), &Boxed)| {
-            let across = slope.iter().zip(&first).map(|(slope, x)| slope.magnitude() * x.rad);
+            let across =
+                slope.iter().zip(sides.clone()).map(|(slope, side)| slope.magnitude() * side);
             let size = gap.magnitude() + across.sum::<f64>();
             let size = if is_stated(*index) { 0.0 } else { raised(size, slope.len() + 2) };
             Enclosure::about(0.0, size)

@@ -85,7 +85,7 @@ impl Compiler {
         Some(BilinearForm::of_row(Rational::from(2), sine))
     }
 
-    /// Whether the base of a root may be 0 over a time, as max(x, 0) is.
+    /// Whether the base of a root may be 0 over a time and is never negative, as max(x, 0).
     pub(super) fn may_be_void(&self, base: usize) -> bool {
         self.moduli.get(base).is_some_and(|has| *has)
     }

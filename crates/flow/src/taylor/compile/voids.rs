@@ -1,0 +1,49 @@
+//! Steps that may be 0 over a time, and are never negative, as max(x, 0) and |x|: where the base of a root is 0 the root
+//! is, and where it is negative there is no motion.
+
+use crate::taylor::germ::Affine;
+use crate::taylor::removable::affine;
+use liouville::graph::{Graph, Step};
+use liouville::number::rational::Rational;
+use liouville::number::{BinaryOperation, UnaryFunction};
+
+/// Whether each step of a graph contains a modulus and is not negative, by its form.
+pub(super) fn may_be_zero(graph: &Graph) -> Vec<bool> {
+    let is_modulus = |step: Step<'_>| matches!(step, Step::Unary(UnaryFunction::Abs, _));
+    if !graph.steps().any(is_modulus) {
+        return vec![false; graph.len()];
+    }
+    let all: Vec<usize> = (0..graph.len()).collect();
+    let affine = affine(graph, &all);
+    // |X| + X or |X| − X, X up to its sign
+    let is_maximum = |modulus: usize, other: usize| match graph.step(modulus) {
+        Step::Unary(UnaryFunction::Abs, a) => {
+            let minus = |own: &Affine| own.times(&Rational::from(-1));
+            affine.get(&a).zip(affine.get(&other)).is_some_and(|(a, b)| a == b || minus(a) == *b)
+        }
+        _ => false,
+    };
+    let (mut has_modulus, mut is_not_negative) = (Vec::new(), Vec::<bool>::new());
+    for step in graph.steps() {
+        let own = is_modulus(step) || step.arguments().any(|argument| has_modulus[argument]);
+        has_modulus.push(own);
+        let known = |a: usize| is_not_negative[a];
+        let found = match step {
+            Step::Constant(value) => !value.is_negative(),
+            Step::Unary(UnaryFunction::Abs | UnaryFunction::Sqrt | UnaryFunction::Exp, _) => true,
+            Step::Unary(UnaryFunction::Recip, a) => known(a),
+            Step::Binary(BinaryOperation::Mul, a, b) => a == b || known(a) && known(b),
+            Step::Binary(BinaryOperation::Add, a, b) => {
+                known(a) && known(b) || is_maximum(a, b) || is_maximum(b, a)
+            }
+            Step::Binary(BinaryOperation::Sub, a, b) => is_maximum(a, b),
+            Step::Power(a, exponent) => {
+                let is_even = exponent.to_integer().is_none_or(|n| n % 2 == 0);
+                is_even || known(a)
+            }
+            _ => false,
+        };
+        is_not_negative.push(found);
+    }
+    has_modulus.iter().zip(is_not_negative).map(|(has, known)| *has && known).collect()
+}
