@@ -47,3 +47,28 @@ pub(super) fn may_be_zero(graph: &Graph) -> Vec<bool> {
     }
     has_modulus.iter().zip(is_not_negative).map(|(has, known)| *has && known).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use liouville::graph::{Expr, record};
+    use liouville::scalar::Scalar;
+    use num_dual::DualNum;
+
+    #[test]
+    fn bases_that_may_be_negative_have_no_roots_there() {
+        let found = |build: &dyn Fn(Expr, Expr) -> Expr| {
+            let (graph, value) = record(2, |x| build(x[0], x[1])).expect("records");
+            may_be_zero(&graph)[graph.place(value)]
+        };
+        let number = |n: i64| Expr::rational(&Rational::from(n));
+        let above = |x: Expr| (x + x.modulus()) / number(2);
+        assert!(found(&|x, _| x.modulus()) && found(&|x, _| above(x)));
+        assert!(found(&|x, y| above(x - y) + above(-x - number(1)) * number(3)));
+        assert!(found(&|x, y| above(x) * y * y), "a product of what is not negative");
+        assert!(found(&|x, _| x.modulus() - x) && found(&|x, _| above(x).sqrt()));
+        assert!(!found(&|x, _| x.modulus() - number(1)), "negative for |x| < 1");
+        assert!(!found(&|x, y| x + y.modulus()) && !found(&|x, _| -above(x)));
+        assert!(!found(&|x, y| above(x) * y) && !found(&|x, y| x * x + y * y), "no modulus");
+    }
+}
