@@ -4,7 +4,6 @@
 use crate::taylor::germ::Affine;
 use crate::taylor::removable::affine;
 use liouville::graph::{Graph, Step};
-use liouville::number::rational::Rational;
 use liouville::number::{BinaryOperation, UnaryFunction};
 
 /// Whether each step of a graph contains a modulus and is not negative, by its form.
@@ -15,16 +14,21 @@ pub(super) fn may_be_zero(graph: &Graph) -> Vec<bool> {
     }
     let all: Vec<usize> = (0..graph.len()).collect();
     let affine = affine(graph, &all);
-    // |X| + X or |X| − X, X up to its sign
-    let is_maximum = |modulus: usize, other: usize| match graph.step(modulus) {
-        Step::Unary(UnaryFunction::Abs, a) => {
-            let minus = |own: &Affine| own.times(&Rational::from(-1));
-            affine.get(&a).zip(affine.get(&other)).is_some_and(|(a, b)| a == b || minus(a) == *b)
-        }
-        _ => false,
+    // c |X| + λ X + μ with |λ| ≤ c and μ ≥ 0
+    let is_maximum = |place: usize| -> Option<bool> {
+        let own = affine.get(&place)?;
+        let mut moduli = own.terms.iter().filter_map(|(place, weight)| match graph.step(*place) {
+            Step::Unary(UnaryFunction::Abs, a) => Some((*place, a, weight.clone())),
+            _ => None,
+        });
+        let (modulus, argument, weight) = moduli.next()?;
+        let rest = own.plus(&Affine::of_step(modulus), &-&weight);
+        let [slope, constant] = rest.along(affine.get(&argument)?)?;
+        let is_steeper = slope > weight || -&slope > weight;
+        Some(!is_steeper && !constant.is_negative())
     };
     let (mut has_modulus, mut is_not_negative) = (Vec::new(), Vec::<bool>::new());
-    for step in graph.steps() {
+    for (place, step) in graph.steps().enumerate() {
         let own = is_modulus(step) || step.arguments().any(|argument| has_modulus[argument]);
         has_modulus.push(own);
         let known = |a: usize| is_not_negative[a];
@@ -33,17 +37,14 @@ pub(super) fn may_be_zero(graph: &Graph) -> Vec<bool> {
             Step::Unary(UnaryFunction::Abs | UnaryFunction::Sqrt | UnaryFunction::Exp, _) => true,
             Step::Unary(UnaryFunction::Recip, a) => known(a),
             Step::Binary(BinaryOperation::Mul, a, b) => a == b || known(a) && known(b),
-            Step::Binary(BinaryOperation::Add, a, b) => {
-                known(a) && known(b) || is_maximum(a, b) || is_maximum(b, a)
-            }
-            Step::Binary(BinaryOperation::Sub, a, b) => is_maximum(a, b),
+            Step::Binary(BinaryOperation::Add, a, b) => known(a) && known(b),
             Step::Power(a, exponent) => {
                 let is_even = exponent.to_integer().is_none_or(|n| n % 2 == 0);
                 is_even || known(a)
             }
             _ => false,
         };
-        is_not_negative.push(found);
+        is_not_negative.push(found || is_maximum(place) == Some(true));
     }
     has_modulus.iter().zip(is_not_negative).map(|(has, known)| *has && known).collect()
 }
@@ -52,6 +53,7 @@ pub(super) fn may_be_zero(graph: &Graph) -> Vec<bool> {
 mod tests {
     use super::*;
     use liouville::graph::{Expr, record};
+    use liouville::number::rational::Rational;
     use liouville::scalar::Scalar;
     use num_dual::DualNum;
 
@@ -66,6 +68,9 @@ mod tests {
         assert!(found(&|x, _| x.modulus()) && found(&|x, _| above(x)));
         assert!(found(&|x, y| above(x - y) + above(-x - number(1)) * number(3)));
         assert!(found(&|x, y| above(x) * y * y), "a product of what is not negative");
+        let half = |x: Expr| x / number(2);
+        assert!(found(&|x, _| half(x) + half(x.modulus())), "as max(x, 0) may be written");
+        assert!(!found(&|x, _| x + half(x.modulus())) && !found(&|x, _| above(x) - number(1)));
         assert!(found(&|x, _| x.modulus() - x) && found(&|x, _| above(x).sqrt()));
         assert!(!found(&|x, _| x.modulus() - number(1)), "negative for |x| < 1");
         assert!(!found(&|x, y| x + y.modulus()) && !found(&|x, _| -above(x)));
