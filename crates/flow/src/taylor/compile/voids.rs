@@ -4,6 +4,7 @@
 use crate::taylor::germ::Affine;
 use crate::taylor::removable::affine;
 use liouville::graph::{Graph, Step};
+use liouville::number::rational::Rational;
 use liouville::number::{BinaryOperation, UnaryFunction};
 
 /// Whether each step of a graph contains a modulus and is not negative, by its form.
@@ -14,9 +15,9 @@ pub(super) fn may_be_zero(graph: &Graph) -> Vec<bool> {
     }
     let all: Vec<usize> = (0..graph.len()).collect();
     let affine = affine(graph, &all);
-    // c |X| + λ X + μ with |λ| ≤ c and μ ≥ 0
-    let is_maximum = |place: usize| -> Option<bool> {
-        let own = affine.get(&place)?;
+    // ±(c |X| + λ X + μ) with |λ| ≤ c and μ ≥ 0
+    let is_maximum = |place: usize, sign: i64| -> Option<bool> {
+        let own = affine.get(&place)?.times(&Rational::from(sign));
         let mut moduli = own.terms.iter().filter_map(|(place, weight)| match graph.step(*place) {
             Step::Unary(UnaryFunction::Abs, a) => Some((*place, a, weight.clone())),
             _ => None,
@@ -27,33 +28,48 @@ pub(super) fn may_be_zero(graph: &Graph) -> Vec<bool> {
         let is_steeper = slope > weight || -&slope > weight;
         Some(!is_steeper && !constant.is_negative())
     };
-    let (mut has_modulus, mut is_not_negative) = (Vec::new(), Vec::<bool>::new());
+    let mut has_modulus = Vec::new();
+    // Whether each step is not negative, and whether it is not positive.
+    let mut signs = Vec::<[bool; 2]>::new();
     for (place, step) in graph.steps().enumerate() {
         let own = is_modulus(step) || step.arguments().any(|argument| has_modulus[argument]);
         has_modulus.push(own);
-        let known = |a: usize| is_not_negative[a];
+        let at = |a: usize| signs[a];
         let found = match step {
-            Step::Constant(value) => !value.is_negative(),
-            Step::Unary(UnaryFunction::Abs | UnaryFunction::Sqrt | UnaryFunction::Exp, _) => true,
-            Step::Unary(UnaryFunction::Recip, a) => known(a),
-            Step::Binary(BinaryOperation::Mul, a, b) => a == b || known(a) && known(b),
-            Step::Binary(BinaryOperation::Add, a, b) => known(a) && known(b),
-            Step::Power(a, exponent) => {
-                let is_even = exponent.to_integer().is_none_or(|n| n % 2 == 0);
-                is_even || known(a)
+            Step::Constant(value) => [!value.is_negative(), value.is_negative() || value.is_zero()],
+            Step::Unary(UnaryFunction::Abs | UnaryFunction::Sqrt | UnaryFunction::Exp, _) => {
+                [true, false]
             }
-            _ => false,
+            Step::Unary(UnaryFunction::Recip, a) => at(a),
+            Step::Unary(UnaryFunction::Neg, a) => [at(a)[1], at(a)[0]],
+            Step::Binary(BinaryOperation::Mul, a, b) if a == b => [true, false],
+            Step::Binary(BinaryOperation::Mul, a, b) => {
+                let ([p, m], [q, n]) = (at(a), at(b));
+                [p && q || m && n, p && n || m && q]
+            }
+            Step::Binary(BinaryOperation::Add, a, b) => {
+                [at(a)[0] && at(b)[0], at(a)[1] && at(b)[1]]
+            }
+            Step::Binary(BinaryOperation::Sub, a, b) => {
+                [at(a)[0] && at(b)[1], at(a)[1] && at(b)[0]]
+            }
+            Step::Power(a, exponent) => {
+                [exponent.to_integer().is_none_or(|n| n % 2 == 0) || at(a)[0], false]
+            }
+            _ => [false; 2],
         };
-        is_not_negative.push(found || is_maximum(place) == Some(true));
+        let [above, below] = [(0, 1), (1, -1)].map(|(index, sign): (usize, i64)| {
+            found[index] || is_maximum(place, sign) == Some(true)
+        });
+        signs.push([above, below]);
     }
-    has_modulus.iter().zip(is_not_negative).map(|(has, known)| *has && known).collect()
+    has_modulus.iter().zip(signs).map(|(has, [above, _])| *has && above).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use liouville::graph::{Expr, record};
-    use liouville::number::rational::Rational;
     use liouville::scalar::Scalar;
     use num_dual::DualNum;
 
