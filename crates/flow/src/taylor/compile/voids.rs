@@ -83,7 +83,7 @@ mod tests {
         let above = |x: Expr| (x + x.modulus()) / number(2);
         assert!(found(&|x, _| x.modulus()) && found(&|x, _| above(x)));
         assert!(found(&|x, y| above(x - y) + above(-x - number(1)) * number(3)));
-        assert!(found(&|x, y| above(x) * y * y), "a product of what is not negative");
+        assert!(found(&|x, y| above(x) * (y * y)), "a product of what is not negative");
         let half = |x: Expr| x / number(2);
         assert!(found(&|x, _| half(x) + half(x.modulus())), "as max(x, 0) may be written");
         assert!(!found(&|x, _| x + half(x.modulus())) && !found(&|x, _| above(x) - number(1)));
