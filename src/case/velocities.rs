@@ -7,13 +7,10 @@ use super::error::{Mistake, Problem};
 use super::section::CaseTable;
 use crate::formula::canonical_name;
 use crate::graph::{Expr, record};
+use crate::mechanics::vanishing::vanishes;
 use crate::mechanics::{
     Algebra, Lagrangian, LevelEquation, LevelFunction, Model, Phase, System, VariableRole,
 };
-use crate::proof::{Extent, Group, GroupOutcome, InputDistribution, Prover};
-
-/// Seed of the proofs that slopes are 0.
-const SEED: u64 = 1;
 
 /// Rejects a rate that is not linear in the velocities although the equations of motion need it.
 /// Returns a warning for each constraint whose reaction is a matter of definition.
@@ -120,19 +117,7 @@ impl Nonlinear {
         let constraints = (0..lagrangian.constraints.len())
             .filter(|k| !lagrangian.vakonomic && slopes.iter().any(|(_, all)| bends(all[*k])))
             .collect();
-        // Also where terms cancel, as in (γ, γ × ω).
-        let inputs = parameters + dimension;
-        let (sources, extents) =
-            (vec![InputDistribution::Uniform; inputs], vec![Extent::ALL; inputs]);
-        let prover = Prover { sources: &sources, extents: &extents, seed: SEED };
-        let is_zero = |slope: Expr| match graph.constant_value(slope) {
-            Some(value) => value.is_zero(),
-            None => {
-                let found = prover.prove(&graph, &[Group::of(vec![slope])]);
-                found.is_ok_and(|found| found.iter().all(GroupOutcome::is_zero))
-            }
-        };
-        let is_still = |k: &usize| slopes.iter().all(|(_, all)| is_zero(all[*k]));
+        let is_still = |k: &usize| slopes.iter().all(|(_, all)| vanishes(&graph, all[*k]));
         let still = match lagrangian.vakonomic || slopes.is_empty() {
             true => Vec::new(),
             false => (0..lagrangian.constraints.len()).filter(is_still).collect(),

@@ -1,5 +1,6 @@
 //! Linear algebra over any scalar: projections, determinants, traces, positive systems and others.
 
+use super::blocks::{blocks, part};
 use crate::scalar::Scalar;
 
 /// Finds vectors n_i in the span of some gradients with dF_i(n_j) = δ_ij.
@@ -161,40 +162,6 @@ pub fn solve_positive<T: Scalar>(mut a: Vec<Vec<T>>, mut b: Vec<T>) -> Vec<T> {
 /// Largest size of an inverse computed by minors; larger ones come from the characteristic
 /// polynomial.
 const MOST_COFACTORS: usize = 6;
-
-/// Divides the indices of a square matrix into sets without entries between them, by their form.
-pub fn blocks<T: Scalar>(a: &[Vec<T>]) -> Vec<Vec<usize>> {
-    let mut open: Vec<usize> = (0..a.len()).collect();
-    let mut blocks = Vec::new();
-    while let Some(first) = open.first().copied() {
-        let mut block = vec![first];
-        let mut next = 0;
-        while let Some(i) = block.get(next).copied() {
-            let joined = |j: &usize| !(a[i][*j].is_absent() && a[*j][i].is_absent());
-            block.extend(
-                open.iter()
-                    .copied()
-                    .filter(|j| !block.contains(j) && joined(j))
-                    .collect::<Vec<_>>(),
-            );
-            next += 1;
-        }
-        open.retain(|i| !block.contains(i));
-        block.sort_unstable();
-        blocks.push(block);
-    }
-    blocks
-}
-
-/// The part of a matrix with the rows and columns of a block.
-fn part<T: Scalar>(a: &[Vec<T>], block: &[usize]) -> Vec<Vec<T>> {
-    block.iter().map(|i| block.iter().map(|j| a[*i][*j]).collect()).collect()
-}
-
-/// Computes the determinants of the blocks of a matrix, whose product is its determinant.
-pub fn block_determinants<T: Scalar>(a: &[Vec<T>]) -> Vec<T> {
-    blocks(a).iter().map(|block| determinant(&part(a, block))).collect()
-}
 
 /// Solves A x = b for several b and any A, without pivots: x = adj(A) b / det A for each block of A has a value
 /// exactly where det A ≠ 0, also where a leading minor of A is 0.

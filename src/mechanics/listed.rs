@@ -10,18 +10,15 @@ use super::Phase;
 use super::model::{Model, ParameterOrigin};
 use super::recipe::{Draw, SamplerSpec};
 use super::system::System;
+use super::vanishing::vanishes;
 use crate::formula::Value;
 use crate::graph::{Expr, literally, record};
 use crate::number::UnaryFunction;
 use crate::number::rational::Rational;
-use crate::proof::{Extent, Group, GroupOutcome, InputDistribution, Prover};
 use crate::scalar::Scalar;
 
 /// Largest number of choices of listed values that are looked at one by one.
 const MOST_CHOICES: usize = 64;
-
-/// Seed of the proofs that divisors are 0.
-const SEED: u64 = 1;
 
 /// Lists all choices of listed values, by draw; `None` if there are too many.
 pub fn combinations(recipes: &[Draw]) -> Option<Vec<Vec<Option<Rational>>>> {
@@ -97,19 +94,7 @@ impl Model {
             }
         });
         recorded.is_ok_and(|(graph, (divisors, rates))| {
-            let (sources, extents) = (
-                vec![InputDistribution::Uniform; graph.inputs()],
-                vec![Extent::ALL; graph.inputs()],
-            );
-            let prover = Prover { sources: &sources, extents: &extents, seed: SEED };
-            let is_zero = |own: Expr| match graph.constant_value(own) {
-                Some(value) => value.is_zero(),
-                None => {
-                    let found = prover.prove(&graph, &[Group::of(vec![own])]);
-                    found.is_ok_and(|found| found.iter().all(GroupOutcome::is_zero))
-                }
-            };
-            divisors.into_iter().any(|own| graph.is_nowhere_defined(own) || is_zero(own))
+            divisors.into_iter().any(|own| graph.is_nowhere_defined(own) || vanishes(&graph, own))
                 || rates.into_iter().any(|rate| graph.is_nowhere_defined(rate))
         })
     }

@@ -3,6 +3,7 @@
 mod across;
 mod ball;
 mod ball_surface;
+mod blocks;
 mod body;
 pub mod calculus;
 mod chart;
@@ -36,6 +37,7 @@ mod spinning;
 mod streams;
 mod system;
 mod ties;
+pub(crate) mod vanishing;
 mod variables;
 mod vocabulary;
 

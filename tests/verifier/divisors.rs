@@ -1,4 +1,4 @@
-//! What equations of motion are divided by: on levels, for listed values, at limits and images, and in built-in bodies.
+//! Divisors of equations of motion: on levels, for listed values, at limits and images, and in built-in bodies.
 
 use liouville::case::Case;
 use liouville::verdict::{Options, Verdict, judge};

@@ -8,8 +8,9 @@
 use super::Lagrangian;
 use super::recorded_masses::RecordedMasses;
 use crate::graph::{Expr, Fault, Step, divisors_of, record};
+use crate::mechanics::blocks::{block_determinants, blocks};
 use crate::mechanics::dynamics::Dynamics;
-use crate::mechanics::elimination::{block_determinants, blocks, solve_by_minors, solve_positive};
+use crate::mechanics::elimination::{solve_by_minors, solve_positive};
 use crate::mechanics::{Chart, Configuration, Draw, LevelEquation, LevelFunction, Model, Phase};
 use crate::scalar::Scalar;
 

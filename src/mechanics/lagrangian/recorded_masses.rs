@@ -1,4 +1,4 @@
-//! What elimination of the accelerations divides by, as functions of what is drawn.
+//! Divisors of the elimination of accelerations, as functions of what is drawn.
 
 use crate::graph::{Evaluator, Expr, Fault, Graph, Step, Tape, record};
 use crate::mechanics::elimination::is_indefinite;

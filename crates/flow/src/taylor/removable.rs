@@ -41,7 +41,7 @@ pub(super) struct Removable {
     /// Its series in v up to `reach`, each with the unknowns that it is multiplied by.
     pub(super) series: Vec<(Monomial, Vec<Rational>)>,
     pub(super) reach: f64,
-    /// What is proved of the series, if it is bounded.
+    /// Proved bounds of the series, if there are any.
     pub(super) proved: Option<ProvedSeries>,
 }
 

@@ -103,7 +103,7 @@ impl GyroFamily {
         }
     }
 
-    /// What was added, with its text.
+    /// Kind of the addition, with its text.
     pub fn given(&self, text: String) -> Given {
         match self.entry {
             GyroEntry::Rotor => Given::Gyrostat(text),

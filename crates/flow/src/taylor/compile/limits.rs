@@ -18,7 +18,11 @@ impl Compiler {
         let v = self.variable(own);
         let v = self.emit(Rule::Sum, v);
         let near = self.emit(Rule::Near(v, own.reach), BilinearForm::default());
-        let far = self.quotient(own, near);
+        let far = self.quotient(own, |compiler, factor, row| {
+            let minus = BilinearForm::of_product(-&factor, row, near);
+            let divisor = BilinearForm::of_row(factor, row).plus(minus);
+            compiler.emit(Rule::Sum, divisor.plus(BilinearForm::of_row(Self::one(), near)))
+        });
         let x = self.emit(Rule::Sum, Self::product(near, v));
         let square = self.emit(Rule::Sum, Self::product(x, x));
         let mut sum = BilinearForm::default();
@@ -52,8 +56,13 @@ impl Compiler {
         v
     }
 
-    /// Row of the quotient as written, with divisors that are 1 near the place where they are 0.
-    fn quotient(&mut self, own: &Removable, near: Row) -> Row {
+    /// Row of the quotient as written, with the divisors that `divisor` makes of a factor and a row: 1 near the place
+    /// where these are 0.
+    pub(super) fn quotient(
+        &mut self,
+        own: &Removable,
+        divisor: impl Fn(&mut Self, Rational, Row) -> Row,
+    ) -> Row {
         let (mut coefficient, mut rows) = (Self::one(), Vec::new());
         for (place, power) in &own.factors {
             let (factor, row) = self.factor(*place);
@@ -64,10 +73,7 @@ impl Compiler {
                 }
                 continue;
             }
-            let minus = BilinearForm::of_product(-&factor, row, near);
-            let divisor = BilinearForm::of_row(factor, row).plus(minus);
-            let divisor =
-                self.emit(Rule::Sum, divisor.plus(BilinearForm::of_row(Self::one(), near)));
+            let divisor = divisor(self, factor, row);
             let out = self.next;
             let inverse = self.emit(Rule::Recip(divisor), Self::product(divisor, out));
             rows.extend((0..power.unsigned_abs()).map(|_| inverse));

@@ -40,7 +40,11 @@ impl Compiler {
         let count = own.series.iter().map(|(_, series)| series.len()).max().unwrap_or(0);
         let index = self.powers_near(own, proved.reach, count);
         let near = self.series[index].near;
-        let far = self.quotient_elsewhere(own, near);
+        let far = self.quotient(own, |compiler, factor, row| {
+            let divisor = compiler.emit(Rule::Sum, BilinearForm::of_row(factor, row));
+            let one = compiler.constant(1);
+            compiler.choice(near, one, divisor)
+        });
         let mut sum = BilinearForm::default();
         for ((monomial, series), rest) in own.series.iter().zip(&proved.rests) {
             let powers = self.series[index].powers.clone();
@@ -94,28 +98,5 @@ impl Compiler {
         }
         self.series.push(PowersNear { variable, reach, near, powers });
         self.series.len() - 1
-    }
-
-    /// Row of the quotient as written, with divisors that are 1 near the place where they are 0.
-    fn quotient_elsewhere(&mut self, own: &Removable, near: Row) -> Row {
-        let (mut coefficient, mut rows) = (Self::one(), Vec::new());
-        for (place, power) in &own.factors {
-            let (factor, row) = self.factor(*place);
-            if *power > 0 {
-                for _ in 0..*power {
-                    coefficient = &coefficient * &factor;
-                    rows.push(row);
-                }
-                continue;
-            }
-            let divisor = self.emit(Rule::Sum, BilinearForm::of_row(factor, row));
-            let one = self.constant(1);
-            let divisor = self.choice(near, one, divisor);
-            let out = self.next;
-            let inverse = self.emit(Rule::Recip(divisor), Self::product(divisor, out));
-            rows.extend((0..power.unsigned_abs()).map(|_| inverse));
-        }
-        let form = self.product_of(coefficient, rows);
-        self.emit(Rule::Sum, form)
     }
 }

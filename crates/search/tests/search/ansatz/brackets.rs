@@ -5,7 +5,7 @@ use liouville_search::{Effort, FoundKind, Hamiltonians, SearchReport, search};
 
 use crate::ansatz::{case, effort};
 
-/// What belongs to the finds, with its kinds.
+/// Data of the finds, with their kinds.
 fn with(report: &SearchReport) -> Vec<(&str, &str)> {
     let all = report.found.iter().flat_map(|found| &found.with);
     all.map(|own| (own.name(), own.text())).collect()
