@@ -25,6 +25,10 @@ pub enum GivenValue {
     Formula(String),
 }
 
+/// Remedy for a value of a list that is not a rational number.
+const LISTED: &str = "a list has rational numbers alone: list a factor of another name, as n = \"one of 1, 2\", and \
+    write the parameter by it, as \"n*pi/2\" or \"(-1)^n*sqrt(2)\"";
+
 /// Reason why a value cannot be read.
 pub enum Refusal {
     /// The value has none of the possible forms.
@@ -136,7 +140,9 @@ pub fn described(text: &str, scope: &dyn Scope) -> Result<GivenValue, Refusal> {
     }
     if let Some(list) = text.strip_prefix("one of ") {
         let values: Vec<String> = list.split(',').map(|item| item.trim().to_string()).collect();
-        return Ok(GivenValue::Drawn(SamplerSpec::Scalar(Draw::OneOf(read_all(&values)?))));
+        let values =
+            read_all(&values).map_err(|message| Refusal::Form(message, LISTED.to_string()))?;
+        return Ok(GivenValue::Drawn(SamplerSpec::Scalar(Draw::OneOf(values))));
     }
     if let Some((message, remedy)) = foreign::range(text) {
         return Err(Refusal::Form(message, remedy));

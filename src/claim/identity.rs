@@ -1,5 +1,7 @@
 //! Identities between two formulas, or between a rate and a formula.
 
+use std::borrow::Cow;
+
 use num_dual::DualNum;
 
 use super::boxes::Boxes;
@@ -204,7 +206,7 @@ impl Statement for Relation {
         let moves = |symbol| model.vocabulary.entry(symbol).reach > Dependence::Parameters;
         let all = model.vocabulary.with_abbreviations(&self.cofactor, &model.abbreviations);
         let below = all.into_iter().flat_map(Formula::denominators);
-        let mut texts: Vec<&str> = below
+        let mut texts: Vec<Cow<'_, str>> = below
             .filter(|part| part.symbols.iter().any(|symbol| moves(*symbol)))
             .map(|part| part.text)
             .collect();

@@ -1,13 +1,15 @@
 //! Poles of a formula: its denominators and the arguments of its logarithms.
 
+use std::borrow::Cow;
+
 use super::arena::{ElementaryFunction, NodeOperation};
 use super::{Formula, Symbol};
 
 /// Part of a formula that must not be zero.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Denominator<'f> {
-    /// Text as written.
-    pub text: &'f str,
+    /// Text as written; the cosine of what the tangent is taken of.
+    pub text: Cow<'f, str>,
     /// Symbols that it depends on.
     pub symbols: Vec<Symbol>,
 }
@@ -18,18 +20,18 @@ impl Formula {
     pub fn denominators(&self) -> Vec<Denominator<'_>> {
         let nodes = &self.arena.nodes;
         let below = nodes.iter().filter_map(|node| match &node.operation {
-            NodeOperation::Divide(_, b) => Some(*b),
-            NodeOperation::Power(a, exponent) if exponent.is_negative() => Some(*a),
+            NodeOperation::Divide(_, b) => Some((*b, false)),
+            NodeOperation::Power(a, exponent) if exponent.is_negative() => Some((*a, false)),
             NodeOperation::PowerOf(a, _)
             | NodeOperation::Inverse(a)
-            | NodeOperation::Solve(a, _) => Some(*a),
-            NodeOperation::Function(
-                ElementaryFunction::Ln | ElementaryFunction::Tan | ElementaryFunction::Sign,
-                a,
-            ) => Some(*a),
+            | NodeOperation::Solve(a, _) => Some((*a, false)),
+            NodeOperation::Function(ElementaryFunction::Ln | ElementaryFunction::Sign, a) => {
+                Some((*a, false))
+            }
+            NodeOperation::Function(ElementaryFunction::Tan, a) => Some((*a, true)),
             _ => None,
         });
-        let described = |node: usize| {
+        let described = |(node, is_tangent): (usize, bool)| {
             let place = &nodes[node].span;
             let inside =
                 nodes.iter().filter(|n| place.start <= n.span.start && n.span.end <= place.end);
@@ -37,10 +39,12 @@ impl Formula {
                 NodeOperation::Symbol(slot) => Some(self.arena.symbols[slot].0),
                 _ => None,
             });
-            Denominator {
-                text: self.text.get(place.clone()).unwrap_or_default().trim(),
-                symbols: symbols.collect(),
-            }
+            let text = self.text.get(place.clone()).unwrap_or_default().trim();
+            let text = match is_tangent {
+                true => Cow::Owned(format!("cos({text})")),
+                false => Cow::Borrowed(text),
+            };
+            Denominator { text, symbols: symbols.collect() }
         };
         below.map(described).collect()
     }

@@ -17,15 +17,13 @@ mod masses;
 mod momenta;
 mod recorded_masses;
 
-use self::equations::MOST_ROWS;
 pub use self::equations::{EquationTerms, LagrangianEquations};
 pub use self::masses::AccelerationSolver;
 use self::masses::eliminated;
 
 use super::configuration::Configuration;
 use super::dynamics::Dynamics;
-use super::elimination::solve_by_minors;
-use super::model::{Model, Variable};
+use super::model::Variable;
 use super::phase::Phase;
 use super::quantity::Quantity;
 use crate::formula::{Formula, Value};
@@ -225,17 +223,18 @@ impl Lagrangian {
         }
         match equations.is_small() {
             true => equations.by_determinant(),
-            false => equations.solved_by(&|matrix, sides| solve_by_minors(matrix, &sides)),
+            false => equations.by_blocks(),
         }
     }
 
     /// Whether the equations of motion are known to have one solution at almost every state at which what they are
     /// divided by is not 0, and at no others.
-    pub fn has_known_divisors(&self, model: &Model) -> bool {
-        let rows = self.velocities(&model.state).len() + self.constraints.len();
-        match self.solver.by_minors {
-            true => rows <= MOST_ROWS,
-            false => self.solver.is_known,
-        }
+    pub fn has_known_divisors(&self) -> bool {
+        self.solver.is_known
+    }
+
+    /// Whether they are known to have one exactly where that is not 0.
+    pub fn has_exact_divisors(&self) -> bool {
+        self.solver.is_exact
     }
 }

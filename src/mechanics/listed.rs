@@ -7,6 +7,7 @@
 use num_traits::Zero;
 
 use super::Phase;
+use super::chart::Chart;
 use super::model::{Model, ParameterOrigin};
 use super::recipe::{Draw, SamplerSpec};
 use super::system::System;
@@ -54,40 +55,100 @@ impl Model {
     /// or 1/0 where a mass is 0. Fields that formulas give are left out, as these formulas are
     /// required anyway.
     pub fn find_undetermined(&self) -> Vec<ListedValues> {
-        if self.system.is_given_by_formulas() {
-            return Vec::new();
+        match self.system.is_given_by_formulas() {
+            true => Vec::new(),
+            false => self.choices_without_motion(),
         }
-        let is_listed = |origin: &ParameterOrigin| {
-            matches!(origin, ParameterOrigin::Free(SamplerSpec::Scalar(Draw::OneOf(_))))
-        };
-        let listed: Vec<usize> = (0..self.parameters.len())
-            .filter(|index| is_listed(&self.parameters[*index].origin))
-            .collect();
-        let draws = self.parameter_draws();
+    }
+
+    /// Lists the choices of listed values for which the equations of motion have no solution, or no value.
+    pub fn choices_without_motion(&self) -> Vec<ListedValues> {
+        let listed: Vec<usize> =
+            (0..self.parameters.len()).filter(|index| self.list_of(*index).is_some()).collect();
         let choices = match listed.is_empty() {
             true => None,
-            false => combinations(&draws),
+            false => combinations(&self.draws_of_lists()),
         };
         let choices = choices.filter(|all| all.len() > 1).unwrap_or_default();
         let choices = choices.into_iter().filter(|choice| self.has_no_motion(choice));
-        // Scalars take one draw each, and those of lists are fixed by a choice in their order.
+        // Scalars take one draw each, and these alone are fixed by a choice, in their order.
         choices
             .map(|choice| listed.iter().copied().zip(choice.into_iter().flatten()).collect())
             .collect()
+    }
+
+    /// Returns the draws of the free parameters; those of vectors and matrices count as free, with a list or not.
+    fn draws_of_lists(&self) -> Vec<Draw> {
+        let of_one = |recipe: &SamplerSpec| match recipe {
+            SamplerSpec::Scalar(draw) => vec![draw.clone()],
+            other => vec![Draw::Sign; other.draws().len()],
+        };
+        let free = self.parameters.iter().filter_map(|own| match &own.origin {
+            ParameterOrigin::Free(recipe) => Some(of_one(recipe)),
+            _ => None,
+        });
+        free.flatten().collect()
+    }
+
+    /// Takes each listed value for which there is no motion, whatever the other parameters are, out of its list.
+    /// Returns these values by the index of the parameter; of lists of which none is left nothing is taken.
+    pub fn leave_out_values_without_motion(&mut self) -> ListedValues {
+        let mut left_out = ListedValues::new();
+        let choices = self.choices_without_motion();
+        let all = match choices.is_empty() {
+            true => None,
+            false => combinations(&self.draws_of_lists()),
+        };
+        let all = all.map_or(0, |all| all.len());
+        for index in 0..self.parameters.len() {
+            let Some(values) = self.list_of(index) else { continue };
+            let others = all / values.len().max(1);
+            let is_still = |value: &Rational| {
+                let with = |own: &&ListedValues| own.contains(&(index, value.clone()));
+                others > 0 && choices.iter().filter(with).count() == others
+            };
+            let (still, moving): (Vec<_>, Vec<_>) = values.iter().cloned().partition(is_still);
+            if !still.is_empty() && !moving.is_empty() {
+                let kept = SamplerSpec::Scalar(Draw::OneOf(moving));
+                self.parameters[index].origin = ParameterOrigin::Free(kept);
+                left_out.extend(still.into_iter().map(|value| (index, value)));
+            }
+        }
+        if !left_out.is_empty() {
+            self.undetermined = self.find_undetermined();
+        }
+        left_out
+    }
+
+    /// The list of a scalar parameter.
+    fn list_of(&self, index: usize) -> Option<&[Rational]> {
+        match &self.parameters[index].origin {
+            ParameterOrigin::Free(SamplerSpec::Scalar(Draw::OneOf(values))) => Some(values),
+            _ => None,
+        }
     }
 
     /// Whether the equations of motion have no solution for a choice of listed values: where what they are divided by is
     /// 0 at every state, the determinant of masses and constraints for a Lagrangian, whatever it is solved by; or where
     /// the rates have no value by their form.
     fn has_no_motion(&self, choice: &[Option<Rational>]) -> bool {
+        let chart = self.system.chart();
         let recorded = record(choice.len() + self.dimension(), |inputs| {
             let fixed = choice.iter().chain(std::iter::repeat(&None));
             let at = |(input, value): (&Expr, &Option<Rational>)| {
                 value.as_ref().map_or(*input, Expr::rational)
             };
             let inputs: Vec<Expr> = inputs.iter().zip(fixed).map(at).collect();
-            let (parameters, state) = self.make_parameters(&inputs);
-            let phase = Phase::new(self, &parameters, state);
+            let (parameters, draws) = self.make_parameters(&inputs);
+            let state = match &chart {
+                // γ and ω take five numbers where |γ| = 1 (and ω is normal to γ): what is divided by may be 0 there alone.
+                Chart::Rolling | Chart::Sphere => {
+                    let draws = draws.split_last().map_or(draws, |(_, others)| others);
+                    chart.point(self, &vec![true; self.level.len()], &parameters, draws)
+                }
+                Chart::Free | Chart::Given(_) | Chart::Equations => draws.to_vec(),
+            };
+            let phase = Phase::new(self, &parameters, &state);
             match &self.system {
                 System::Lagrangian(own) => (own.determinants(&phase), Vec::new()),
                 body => (body.divisors(&phase), phase.field().to_vec()),

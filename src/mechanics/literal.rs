@@ -58,12 +58,16 @@ impl Phase<'_, Expr> {
     /// more, so that all that is written is asked then.
     pub fn hidden_in_motion(&self, written: &[Expr]) -> Vec<Expr> {
         let system = &self.model().system;
-        // Where elimination may divide by 0 on an open set, the states there count nevertheless if the determinant
-        // of the masses and constraints is not 0.
+        // Where elimination may divide by 0, the states there count nevertheless if the determinant of the masses and
+        // constraints is not 0.
         if let System::Lagrangian(own) = system
-            && !own.has_known_divisors(self.model())
+            && !own.has_exact_divisors()
         {
-            return left_out(written, &inverses(own.determinants(self)));
+            let mut hidden = left_out(written, &inverses(own.determinants(self)));
+            if has_moduli(written) {
+                hidden.extend(own.slopes_as_written(&self.with(&[], &self.state())));
+            }
+            return hidden;
         }
         if has_moduli(written) {
             return self.motion_as_written();
@@ -88,9 +92,7 @@ impl Phase<'_, Expr> {
     /// says something of motions says nothing where one of them has no value, and nobody knows whether motions do.
     pub fn open_divisors(&self) -> Vec<Expr> {
         match &self.model().system {
-            System::Lagrangian(own) if !own.has_known_divisors(self.model()) => {
-                self.inverse_divisors()
-            }
+            System::Lagrangian(own) if !own.has_known_divisors() => self.inverse_divisors(),
             _ => Vec::new(),
         }
     }

@@ -167,7 +167,9 @@ impl Judging<'_> {
 
 /// Whether two values are known to have no common zero, and the first to have one.
 fn are_apart(graph: &Graph, extents: &[Extent], function: Expr, pole: Expr) -> bool {
-    is_nowhere_zero(graph, extents, &[], &[function, pole])
+    let vanish_nowhere = |values: &[Expr]| is_nowhere_zero(graph, extents, &[], values);
+    // A divisor of few variables is seen sooner alone.
+    (vanish_nowhere(&[pole]) || vanish_nowhere(&[function, pole]))
         && !is_nowhere_zero(graph, extents, &[], &[function])
 }
 

@@ -62,10 +62,19 @@ impl Judging<'_> {
     /// Whether the rates of the level functions are combinations of these, with values wherever the field has one.
     pub(super) fn is_kept_by_combination(&self, kept: &[bool]) -> Result<bool, Fault> {
         let (level, rates) = self.common.level_at(kept);
-        let known = self.needs(&[&self.common.required_at(kept)[..], &self.common.field].concat());
+        let known =
+            self.needs(&[&self.common.required_at(kept)[..], self.field_where_known()].concat());
         let needed = self.needs(&rates);
         let has_value = needed.into_iter().all(|need| is_among(&known, need));
         Ok(has_value && self.combination(&level, &rates)?.is_some())
+    }
+
+    /// The rates, whose needs are those of the motion; none where elimination may divide by 0 though motions go on.
+    fn field_where_known(&self) -> &[Expr] {
+        match self.common.open_divisors.is_empty() {
+            true => &self.common.field,
+            false => &[],
+        }
     }
 
     /// Lists what operations in values need of their arguments.
@@ -85,7 +94,7 @@ impl Judging<'_> {
         let mut asked = [&item.requirement[..], &self.common.required_at(sampler.kept())].concat();
         let mut needed = [&item.residual[..], &item.presence].concat();
         if !is_of_points {
-            asked.extend(&self.common.field);
+            asked.extend(self.field_where_known());
             needed.extend(&self.common.level_rates);
         }
         let known = self.needs(&asked);

@@ -38,7 +38,7 @@ impl Unmet {
 }
 
 /// Largest numbers of operations and of inputs of a value that is read as a quotient in lowest terms.
-const MOST_REDUCED: [usize; 2] = [48, 4];
+const MOST_REDUCED: [usize; 2] = [96, 8];
 
 impl Judging<'_> {
     /// Leaves claims undecided if an essential condition is not known to hold, and adds remarks to

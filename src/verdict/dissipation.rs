@@ -14,11 +14,14 @@ use crate::claim::{ClaimKind, Lyapunov};
 use crate::formula::{Formula, Type, exponent_text};
 use crate::graph::{Expr, Graph, record};
 use crate::mechanics::calculus::DualPoint;
-use crate::mechanics::{ParameterOrigin, Phase, SamplerSpec, System, Variable, VariableRole};
+use crate::mechanics::{
+    ParameterOrigin, Phase, SamplerSpec, System, Variable, VariableRole, combinations,
+};
 use crate::number::ball::Ball;
 use crate::number::rational::Rational;
 use crate::proof::{
-    NamedPolynomial, SimplerForm, completed_squares, factored_sum, simpler_forms, volterra_sum,
+    NamedPolynomial, SimplerForm, completed_squares, factored_sum, is_nowhere_zero, simpler_forms,
+    volterra_sum,
 };
 use crate::scalar::Scalar;
 
@@ -115,14 +118,8 @@ fn rates(
         return Ok(Vec::new());
     }
     let sampler = Sampler::new(case, &claim.place, seed)?;
-    // A denominator may be 0 for a listed value, and then nothing would be said of that.
-    let may_divide = !sampler.has_lists();
     let completed = completed_squares(&graph, growth, free, &names);
-    let mut all: Vec<String> = completed
-        .filter(|found| may_divide || !found.divides)
-        .map(|found| found.text)
-        .into_iter()
-        .collect();
+    let mut all: Vec<String> = completed.map(|found| found.text).into_iter().collect();
     let simpler = simpler_forms(&graph, growth, free, &names, &written_as_squares);
     let mut forms: Vec<SimplerForm> = simpler.into_iter().collect();
     if stage == Stage::All {
@@ -140,8 +137,7 @@ fn rates(
         })?;
         forms.extend(simpler_forms(&graph, power, free, &names, &written_as_squares));
     }
-    let is_asked = |form: &SimplerForm| may_divide || !form.divides;
-    all.extend(forms.into_iter().filter(is_asked).map(|form| form.text));
+    all.extend(forms.into_iter().map(|form| form.text));
     let squares = squares(case, function);
     let numbers = numbers(case);
     let (graph, outputs) = record(free + model.dimension(), |inputs| {
@@ -158,19 +154,62 @@ fn rates(
         .map(|lane| (0..outputs.len()).map(|k| values.output(k).mid[lane]).collect())
         .filter(|row: &Vec<f64>| row.iter().all(|x| x.is_finite()))
         .collect();
-    all.extend(sums(&table, &squares, &numbers, may_divide));
+    all.extend(sums(&table, &squares, &numbers));
     let mut seen = BTreeSet::new();
     all.retain(|text| seen.insert(text.clone()));
     all.retain(|text| stage == Stage::All || text.len() <= SHORT);
     all.sort_by_key(String::len);
+    if sampler.has_lists() {
+        // Where a divisor is 0 for a listed value nothing would be said of that.
+        let mut are_kept = Vec::new();
+        for text in &all {
+            are_kept.push(divides_by_no_zero(case, &sampler, text)?);
+        }
+        let mut are_kept = are_kept.into_iter();
+        all.retain(|_| are_kept.next().unwrap_or_default());
+    }
     all.truncate(MOST_RATES);
     all.extend(power.map(|power| power.text().to_string()));
     Ok(all)
 }
 
+/// Whether each divisor in a formula is known to be nowhere 0, for each choice of listed values.
+fn divides_by_no_zero(case: &Case, sampler: &Sampler, text: &str) -> Result<bool, JudgeError> {
+    let Ok(rate) = case.formula(text) else { return Ok(false) };
+    let below = rate.denominators().into_iter().map(|own| case.formula(&own.text));
+    let Ok(below) = below.collect::<Result<Vec<Formula>, _>>() else { return Ok(false) };
+    if below.is_empty() {
+        return Ok(true);
+    }
+    let Some(choices) = combinations(sampler.recipes()) else { return Ok(false) };
+    let (model, free) = (&case.model, case.model.free_components());
+    let (graph, divisors) = record(free + model.dimension(), |inputs| {
+        let (parameters, state) = inputs.split_at(free);
+        let phase = Phase::new(model, parameters, state);
+        below.iter().map(|own| phase.scalar(own)).collect::<Vec<Expr>>()
+    })?;
+    let extents = sampler.extents();
+    for fixed in choices {
+        let (graph, own) = sampler.compose(&graph, std::slice::from_ref(&divisors), &fixed)?;
+        let is_nonzero = |own: Expr| match graph.constant_value(own) {
+            Some(value) => !value.is_zero(),
+            None => is_nowhere_zero(&graph, &extents, &[], &[own]),
+        };
+        if !own.concat().into_iter().all(is_nonzero) {
+            return Ok(false);
+        }
+    }
+    Ok(true)
+}
+
 /// Writes Σ Qₖ wₖ + (∂(F − E)/∂q, q') for a Lagrangian with generalised forces Q and energy E: the rate of F where
-/// F − E depends on coordinates alone, constraints are homogeneous and nothing depends on time.
+/// F − E depends on coordinates alone, constraints are homogeneous and nothing depends on time. For the energy of a body
+/// this is (moment, ω).
 fn power_of_forces(case: &Case, function: &Formula) -> Option<Formula> {
+    if let (Some(moment), [spin, ..]) = (case.model.system.moment(), &case.model.state[..]) {
+        let power = format!("({}, {})", moment.text(), spin.name);
+        return (function.text().trim() == "energy").then(|| case.formula(&power).ok()).flatten();
+    }
     let System::Lagrangian(own) = &case.model.system else { return None };
     if own.forces.is_empty() {
         return None;

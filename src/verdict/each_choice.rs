@@ -11,6 +11,10 @@ use super::sampler::Sampler;
 use crate::claim::LevelSubset;
 use crate::mechanics::{Draw, combinations};
 
+/// Reason of a claim without a value for any choice.
+const NO_CHOICE: &str =
+    "there is no choice of the listed values for which all formulas of the claim have a value";
+
 impl Judging<'_> {
     /// Decides such claims separately for each choice of the listed values that they depend on.
     pub(super) fn climb_each(
@@ -32,7 +36,16 @@ impl Judging<'_> {
                 undecide(status, TOO_MANY_COMBINATIONS.to_string());
                 continue;
             };
+            let (mut still, mut void) = (Vec::new(), Vec::new());
             for fixed in &choices {
+                if !sampler.is_numerical() && sampler.has_lists() {
+                    let (is_void, has_motion) = self.are_void(&sampler, &[item], fixed)?;
+                    if !has_motion || is_void.contains(&true) {
+                        let kept = if has_motion { &mut void } else { &mut still };
+                        kept.push(fixed.clone());
+                        continue;
+                    }
+                }
                 let mut one = ClaimState::default();
                 let chosen = sampler.with(fixed);
                 self.decide(place, &chosen, missed, &mut vec![(item, &mut one)])?;
@@ -53,6 +66,11 @@ impl Judging<'_> {
                     }
                     break;
                 }
+            }
+            if still.len() + void.len() < choices.len() {
+                self.remark_choices(&sampler, (&still, &void), status);
+            } else {
+                undecide(status, NO_CHOICE.to_string());
             }
         }
         Ok(())

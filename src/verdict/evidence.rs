@@ -319,7 +319,7 @@ impl Evidence {
     }
 
     /// Adds a remark to those that there are.
-    pub(crate) fn add_remark(&mut self, remark: String) {
+    pub fn add_remark(&mut self, remark: String) {
         match &mut self.remark {
             Some(before) => {
                 before.push_str("; ");

@@ -19,6 +19,7 @@ use super::recorded::{OutputLayout, RecordedClaim, Span};
 use super::run::Run;
 use super::sampler::{Sampler, TAPE_LANES};
 use crate::claim::LevelSubset;
+use crate::graph::Expr;
 use crate::number::arb::ArbBall;
 use crate::number::ball::Ball;
 use crate::number::double_double_ball::DoubleDoubleBall;
@@ -69,7 +70,12 @@ impl Judging<'_> {
             open = others;
             self.climb_each(place, sampler, missed.as_deref(), negated)?;
         }
+        let known = match sampler.is_numerical() {
+            true => self.prove_of_parameters(&mut open)?,
+            false => Vec::new(),
+        };
         self.decide(place, sampler, missed.as_deref(), &mut open)?;
+        open.extend(known);
         self.settle_parts(sampler, &mut open)?;
         self.settle_images(sampler, &mut open)?;
         let (mut holding, others): (Open<'_, '_>, Open<'_, '_>) =
@@ -83,6 +89,36 @@ impl Judging<'_> {
         self.remark_voids(sampler, &mut holding)?;
         self.settle_signs(sampler, holding.into_iter().filter(|(_, status)| status.holds()))?;
         Ok(())
+    }
+
+    /// Takes out claims that are equations of parameters alone, as those of a fixed point are, and proved without the
+    /// states of a level.
+    fn prove_of_parameters<'f, 'r: 'f>(
+        &self,
+        open: &mut Open<'f, 'r>,
+    ) -> Result<Open<'f, 'r>, JudgeError> {
+        let parameters = self.case.model.free_components();
+        let is_of_parameters =
+            |value: &Expr| self.graph.inputs_of(*value).into_iter().all(|input| input < parameters);
+        let place = LevelSubset::everywhere(&self.case.model);
+        let space = self.sampler_at(&place)?;
+        let (mut known, mut others) = (Vec::new(), Vec::new());
+        for (item, status) in std::mem::take(open) {
+            let mut written = item.residual.iter().chain(&item.presence).chain(&item.requirement);
+            let is_alone = !space.is_numerical() && written.all(is_of_parameters);
+            if is_alone && !item.claim.kind.is_negated() {
+                let mut alone = ClaimState::default();
+                self.decide(&place, &space, None, &mut vec![(item, &mut alone)])?;
+                if alone.settled == Some(Verdict::Proved) {
+                    *status = alone;
+                    known.push((item, status));
+                    continue;
+                }
+            }
+            others.push((item, status));
+        }
+        *open = others;
+        Ok(known)
     }
 
     /// Climbs until each claim is decided.

@@ -104,6 +104,10 @@ impl Judging<'_> {
 
     /// Whether there may be a motion on a part: at the apex of a cone its reactions are 0/0.
     fn moves(&self, sampler: &Sampler) -> Result<bool, Fault> {
+        // Where elimination has no value there may be motions nevertheless.
+        if !self.common.open_divisors.is_empty() {
+            return Ok(true);
+        }
         let Some(choices) = combinations(sampler.recipes()) else { return Ok(true) };
         let field = std::slice::from_ref(&self.common.field);
         for fixed in choices {

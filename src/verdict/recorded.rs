@@ -47,8 +47,16 @@ impl<'c> RecordedClaim<'c> {
         let names_rates = || claim.kind.formulas().into_iter().any(|own| model.has_rates(own));
         let is_of_motions = claim.kind.of_motions() != OfMotions::Nothing || names_rates();
         let open = if is_of_motions { open } else { &[] };
+        // Rates as they are solved for have no value where an open divisor is 0, though motions may: what is written
+        // with them is no requirement of such a claim, but has to have a value.
+        let (with_rates, known): (Vec<&Formula>, Vec<&Formula>) = claim
+            .kind
+            .formulas()
+            .into_iter()
+            .partition(|own| !open.is_empty() && model.has_rates(own));
+        let presence = claim.kind.presence(jet, &claim.place.kept).into_iter();
         let presence =
-            claim.kind.presence(jet, &claim.place.kept).into_iter().chain(open.iter().copied());
+            presence.chain(open.iter().copied()).chain(jet.phase.literal_values(with_rates));
         let presence: Vec<Expr> = presence.filter(|value| !value.is_always_defined()).collect();
         // 0 where the value exists, and undefined elsewhere.
         let zeros: Vec<Expr> =
@@ -67,9 +75,6 @@ impl<'c> RecordedClaim<'c> {
             residual: residual(&claim.place),
             presence,
             requirement: {
-                // Rates as they are solved for have no value where an open divisor is 0, though motions may.
-                let formulas = claim.kind.formulas().into_iter();
-                let known = formulas.filter(|own| open.is_empty() || !model.has_rates(own));
                 let mut values = jet.phase.literal_values(known);
                 values.extend(claim.kind.further_requirement(jet));
                 values

@@ -91,37 +91,25 @@ struct Factor {
 }
 
 /// Lists the factors of squares, with their values by row.
-fn factors(
-    table: &[Vec<f64>],
-    squares: usize,
-    numbers: &[Formula],
-    may_divide: bool,
-) -> Vec<Factor> {
+fn factors(table: &[Vec<f64>], squares: usize, numbers: &[Formula]) -> Vec<Factor> {
     let mut factors = vec![Factor { text: String::new(), values: vec![1.0; table.len()] }];
     for (p, number) in numbers.iter().enumerate() {
         let values: Vec<f64> = table.iter().map(|row| row[squares + 1 + p]).collect();
         let inverses = values.iter().map(|value| 1.0 / value).collect();
         factors.push(Factor { text: format!("{}*", number.text()), values });
-        if may_divide {
-            factors.push(Factor { text: format!("1/{}*", number.text()), values: inverses });
-        }
+        factors.push(Factor { text: format!("1/{}*", number.text()), values: inverses });
     }
     factors
 }
 
 /// Lists sums of squares that the rate is equal to, each with a negative number, and a parameter or its inverse, as
 /// factors: of one square or two, and with one parameter of all rates, and of all slopes.
-pub(super) fn sums(
-    table: &[Vec<f64>],
-    squares: &[Square],
-    numbers: &[Formula],
-    may_divide: bool,
-) -> Vec<String> {
+pub(super) fn sums(table: &[Vec<f64>], squares: &[Square], numbers: &[Formula]) -> Vec<String> {
     let of_kind =
         |kind: SquareKind| (0..squares.len()).filter(|k| squares[*k].kind == kind).collect();
     let whole: Vec<Vec<usize>> =
         [SquareKind::Rate, SquareKind::Slope, SquareKind::Relative].map(of_kind).to_vec();
-    let factors = factors(table, squares.len(), numbers, may_divide);
+    let factors = factors(table, squares.len(), numbers);
     let target: Vec<f64> = table.iter().map(|row| row[0]).collect();
     let column = |factor: usize, square: usize| -> Vec<f64> {
         let rows = table.iter().zip(&factors[factor].values);

@@ -1,5 +1,6 @@
 //! Listed parameter values, and states, for which a claim says nothing.
 
+use super::claim_state::ClaimState;
 use super::judging::Judging;
 use super::ladder::Open;
 use super::recorded::RecordedClaim;
@@ -42,42 +43,65 @@ impl Judging<'_> {
             return Ok(found);
         }
         let Some(combinations) = combinations(sampler.recipes()) else { return Ok(found) };
-        let common = self.common.required_at(sampler.kept());
-        let all = |item: &RecordedClaim<'_>| [&item.requirement[..], &common].concat();
-        let mut written: Vec<Vec<Expr>> = holding.iter().map(|(item, _)| all(item)).collect();
-        written.push(self.common.motion.clone());
+        let items: Vec<&RecordedClaim<'_>> = holding.iter().map(|(item, _)| *item).collect();
         let mut still: Vec<Choice> = Vec::new();
-        let extents = sampler.extents();
         for fixed in combinations {
-            let (graph, values) = sampler.compose(self.graph, &written, &fixed)?;
-            let is_void = |own: &Vec<Expr>| {
-                own.iter().any(|value| graph.is_nowhere_defined(*value))
-                    || is_missing(&graph, &extents, own)
-            };
-            if values.last().is_some_and(is_void) {
+            let (are_void, has_motion) = self.are_void(sampler, &items, &fixed)?;
+            if !has_motion {
                 still.push(fixed);
                 continue;
             }
-            for (own, void) in values.iter().zip(&mut found) {
-                if is_void(own) {
+            for (is_void, void) in are_void.into_iter().zip(&mut found) {
+                if is_void {
                     void.push(fixed.clone());
                 }
             }
         }
         for ((_, status), void) in holding.iter_mut().zip(&mut found) {
-            for (choices, cause) in
-                [(&still, "the equations of motion have"), (&*void, "a formula has")]
-            {
-                let named =
-                    choices.iter().map(|fixed| sampler.with(fixed).listed(self.case, |_| true));
-                if let Some(named) = named_of(&named.collect::<Vec<String>>()) {
-                    let remark = format!("nothing is said for {named}, where {cause} no value");
-                    status.evidence.add_remark(remark);
-                }
-            }
+            self.remark_choices(sampler, (&still, void), status);
             void.extend(still.iter().cloned());
         }
         Ok(found)
+    }
+
+    /// Whether a formula of each claim has no value for a choice of listed values, and whether the equations of motion
+    /// have one.
+    pub(super) fn are_void(
+        &self,
+        sampler: &Sampler,
+        items: &[&RecordedClaim<'_>],
+        fixed: &Choice,
+    ) -> Result<(Vec<bool>, bool), Fault> {
+        let common = self.common.required_at(sampler.kept());
+        let mut written: Vec<Vec<Expr>> =
+            items.iter().map(|item| [&item.requirement[..], &common].concat()).collect();
+        written.push(self.common.motion.clone());
+        let (graph, values) = sampler.compose(self.graph, &written, fixed)?;
+        let extents = sampler.extents();
+        let is_void = |own: &Vec<Expr>| {
+            own.iter().any(|value| graph.is_nowhere_defined(*value))
+                || is_missing(&graph, &extents, own)
+        };
+        let mut are_void: Vec<bool> = values.iter().map(is_void).collect();
+        let is_still = are_void.pop().unwrap_or_default();
+        Ok((are_void, !is_still))
+    }
+
+    /// Remarks the choices of listed values without equations of motion, and those for which another formula has no
+    /// value.
+    pub(super) fn remark_choices(
+        &self,
+        sampler: &Sampler,
+        (still, void): (&[Choice], &[Choice]),
+        status: &mut ClaimState,
+    ) {
+        for (choices, cause) in [(still, "the equations of motion have"), (void, "a formula has")] {
+            let named = choices.iter().map(|fixed| sampler.with(fixed).listed(self.case, |_| true));
+            if let Some(named) = named_of(&named.collect::<Vec<String>>()) {
+                let remark = format!("nothing is said for {named}, where {cause} no value");
+                status.evidence.add_remark(remark);
+            }
+        }
     }
 }
 

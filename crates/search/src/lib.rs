@@ -95,6 +95,11 @@ pub fn search(
     progress: &mut dyn FnMut(&str),
 ) -> Result<SearchReport, SearchError> {
     let mut report = SearchReport::default();
+    let moving = lists::with_motion(case);
+    let case = moving.as_ref().map_or(case, |(own, _)| own);
+    if let Some((_, remark)) = &moving {
+        report.remark(remark.clone());
+    }
     let case = &abbreviated(case)?;
     report.claimed = ask::claimed(case, effort)?;
     if case.model.system.is_map() {

@@ -8,7 +8,7 @@ use super::orbit::OrbitReport;
 use super::origin::RemarkOrigin;
 use super::{Effort, Excluded, Found, Given, SearchError, SearchReport};
 use liouville::case::Case;
-use liouville::mechanics::{Draw, Model, ParameterOrigin, SamplerSpec};
+use liouville::mechanics::{Draw, ListedValues, Model, ParameterOrigin, SamplerSpec};
 use liouville::number::rational::Rational;
 
 /// Largest number of combinations of listed values that are searched one by one.
@@ -56,8 +56,26 @@ pub fn first_values(case: &Case) -> Option<String> {
     }
 }
 
-/// Lists the cases with each combination of listed values; `None` if these are many, or belong to a
-/// parameter that is no scalar.
+/// Takes the listed values for which there is no motion out of a case, and names them in a remark; `None` if
+/// there are none, or no others.
+pub fn with_motion(case: &Case) -> Option<(Case, String)> {
+    let mut moving = case.clone();
+    let left_out = moving.model.leave_out_values_without_motion();
+    let name = |(place, value): &(usize, Rational)| {
+        format!("{} = {value}", case.model.parameters[*place].name)
+    };
+    let names: Vec<String> = left_out.iter().map(name).collect();
+    (!names.is_empty()).then(|| {
+        let remark = format!(
+            "nothing is said for {}, where the equations of motion have no value",
+            names.join("; ")
+        );
+        (moving, remark)
+    })
+}
+
+/// Lists the cases with each combination of listed values for which there is motion; `None` if these are many, or
+/// belong to a parameter that is no scalar.
 pub fn combinations(case: &Case) -> Option<Vec<ListedCase>> {
     let mut all = vec![ListedCase { case: case.clone(), values: String::new() }];
     for (place, values) in lists(case) {
@@ -78,7 +96,25 @@ pub fn combinations(case: &Case) -> Option<Vec<ListedCase>> {
         };
         all = all.iter().flat_map(|own| values.iter().map(|value| with(own, value))).collect();
     }
+    if all.len() > 1 {
+        let still = case.model.choices_without_motion();
+        let is_still = |own: &ListedCase| still.iter().any(|choice| has_values(&own.case, choice));
+        if !all.iter().all(is_still) {
+            all.retain(|own| !is_still(own));
+        }
+    }
     Some(all)
+}
+
+/// Whether the parameters have these values.
+fn has_values(case: &Case, values: &ListedValues) -> bool {
+    values.iter().all(|(place, value)| match &case.model.parameters[*place].origin {
+        ParameterOrigin::Fixed(own) => own.as_slice() == std::slice::from_ref(value),
+        ParameterOrigin::Free(SamplerSpec::Scalar(Draw::OneOf(own))) => {
+            own.iter().all(|own| own == value)
+        }
+        _ => false,
+    })
 }
 
 /// Lists the cases with each combination of up to `most` listed values; of more, the case alone with the

@@ -5,7 +5,7 @@ use num_dual::Dual;
 use super::{Algebra, Lagrangian, LagrangianTerms, VariableRole};
 use crate::formula::Formula;
 use crate::mechanics::calculus::MANY;
-use crate::mechanics::elimination::{dot, solve_by_cramer, solve_positive};
+use crate::mechanics::elimination::{dot, solve_by_cramer, solve_by_minors, solve_positive};
 use crate::mechanics::{Configuration, Phase, Variable};
 use crate::scalar::Scalar;
 
@@ -70,9 +70,18 @@ impl<T: Scalar> LagrangianEquations<T> {
 
     /// Solves the equations by their determinant, without pivots.
     pub(super) fn by_determinant(self) -> LagrangianTerms<T> {
+        self.solved_whole(|matrix, side| solve_by_cramer(&matrix, &side))
+    }
+
+    /// Solves the equations by the determinants of their blocks, without pivots.
+    pub(super) fn by_blocks(self) -> LagrangianTerms<T> {
+        self.solved_whole(|matrix, side| solve_by_minors(&matrix, &[side]).remove(0))
+    }
+
+    fn solved_whole(self, solve: impl FnOnce(Vec<Vec<T>>, Vec<T>) -> Vec<T>) -> LagrangianTerms<T> {
         let opposite = self.carried.iter().map(|own| -*own);
         let side: Vec<T> = self.terms.drive.iter().copied().chain(opposite).collect();
-        let mut acceleration = solve_by_cramer(&self.bordered(), &side);
+        let mut acceleration = solve(self.bordered(), side);
         let reactions = acceleration.split_off(self.velocities.len());
         LagrangianTerms {
             velocities: self.velocities,

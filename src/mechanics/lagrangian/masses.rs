@@ -6,16 +6,17 @@
 //! [[0, 1], [1, 0]].
 
 use super::Lagrangian;
+use super::equations::{EquationTerms, LagrangianEquations};
 use super::recorded_masses::RecordedMasses;
-use crate::graph::{Expr, Fault, Step, divisors_of, record};
+use crate::graph::{Expr, Fault, Step, divisors_of, literally, record};
 use crate::mechanics::blocks::{block_determinants, blocks};
 use crate::mechanics::dynamics::Dynamics;
 use crate::mechanics::elimination::{solve_by_minors, solve_positive};
 use crate::mechanics::{Chart, Configuration, Draw, LevelEquation, LevelFunction, Model, Phase};
 use crate::scalar::Scalar;
 
-/// Largest number of velocities and constraints that are solved for by minors because nothing is known of a divisor:
-/// more lose digits.
+/// Largest number of coupled velocities and constraints that are solved for by minors because a divisor may be 0
+/// somewhere: more lose digits.
 const MOST_BY_MINORS: usize = 6;
 
 /// Method by which the equations of motion are solved for the accelerations.
@@ -25,24 +26,26 @@ pub struct AccelerationSolver {
     pub by_minors: bool,
     /// Whether M + aᵀa stands for M.
     pub with_slopes: bool,
-    /// Whether what elimination divides by is known to be 0 on no open set of states at which the equations of motion
-    /// have one solution.
+    /// Whether what is divided by is known to be 0 on no open set of states at which the equations of motion have one
+    /// solution.
     pub is_known: bool,
+    /// Whether it is known to be 0 at none of these states.
+    pub is_exact: bool,
 }
 
 impl AccelerationSolver {
     /// Elimination of the masses alone.
-    pub const ELIMINATION: Self = Self { by_minors: false, with_slopes: false, is_known: true };
+    pub const ELIMINATION: Self =
+        Self { by_minors: false, with_slopes: false, is_known: true, is_exact: true };
     const MINORS: Self = Self { by_minors: true, ..Self::ELIMINATION };
 }
 
 impl Lagrangian {
-    /// Chooses how the equations of motion are solved. Minors are taken where the matrix has eigenvalues of both signs
-    /// at some of the first drawn states, with one choice of listed values or another; and for few velocities where
-    /// what elimination divides by is not known to be 0 on no open set of states, on the level and in all of space, or is
-    /// 0 by its form for a listed value.
-    /// Many velocities are then eliminated with M + aᵀa in the place of M, as is the mass of a coordinate that the
-    /// constraints alone move.
+    /// Chooses how the equations of motion are solved. Elimination is taken where what it divides by is known to be
+    /// nowhere 0, on the level, in all of space and where one of several equations holds. Minors are taken elsewhere if few
+    /// velocities and constraints are coupled, or if the matrix has eigenvalues of both signs at some of the first drawn
+    /// states, with one choice of listed values or another. Many are eliminated, with M + aᵀa in the place of M where
+    /// there are constraints.
     pub fn acceleration_solver(
         &self,
         model: &Model,
@@ -78,31 +81,39 @@ impl Lagrangian {
             places.iter().rev().all(is_regular_at)
         };
         let own = self.symbolic_masses(model, &velocities);
-        let is_known = own.as_ref().is_ok_and(is_regular);
-        let are_few = velocities.len() + self.constraints.len() <= MOST_BY_MINORS;
-        let is_indefinite = || {
-            let count = velocities.len();
-            own.as_ref().is_ok_and(|own| own.are_indefinite((model, chart, &level), free, count))
-        };
-        let needs_minors = || {
-            let vanish = || {
-                own.as_ref().is_ok_and(|own| {
-                    own.largest_block <= MOST_BY_MINORS && own.vanish_for_some_choice(model, free)
-                })
+        let is_nowhere_singular = |own: &RecordedMasses| {
+            let is_nowhere_singular_at = |kept: &Vec<bool>| {
+                let at = (model, chart, &kept[..]);
+                own.are_definite(at, free) || own.are_nowhere_zero(at, free)
             };
-            are_few || vanish() && self.constraints.is_empty()
+            places.iter().all(is_nowhere_singular_at)
         };
-        if !is_known && needs_minors() || is_indefinite() {
+        let is_indefinite = |own: &RecordedMasses| {
+            own.are_indefinite((model, chart, &level), free, velocities.len())
+        };
+        if own.as_ref().is_ok_and(|own| is_nowhere_singular(own) && !is_indefinite(own)) {
+            return AccelerationSolver::ELIMINATION;
+        }
+        let are_few = velocities.len() + self.constraints.len() <= MOST_BY_MINORS;
+        let are_small = || own.as_ref().is_ok_and(|own| own.largest_block <= MOST_BY_MINORS);
+        if are_few || own.as_ref().is_ok_and(is_indefinite) || are_small() {
             return AccelerationSolver::MINORS;
         }
-        if is_known || self.constraints.is_empty() {
-            return AccelerationSolver { is_known, ..AccelerationSolver::ELIMINATION };
+        let is_known = own.as_ref().is_ok_and(is_regular);
+        let of_many = AccelerationSolver { is_exact: false, ..AccelerationSolver::ELIMINATION };
+        let elimination = AccelerationSolver { is_known, ..of_many };
+        if self.constraints.is_empty() {
+            return elimination;
         }
-        let solver = AccelerationSolver { with_slopes: true, ..AccelerationSolver::ELIMINATION };
+        // A mass may be 0 at a limit, or at a rest, though the motion is determined there by the constraints.
+        let solver = AccelerationSolver { with_slopes: true, ..of_many };
         let with_slopes = Self { solver, ..self.clone() };
-        let is_known =
+        let is_known_with_slopes =
             with_slopes.symbolic_masses(model, &velocities).is_ok_and(|own| is_regular(&own));
-        AccelerationSolver { is_known, ..solver }
+        match is_known && !is_known_with_slopes {
+            true => elimination,
+            false => AccelerationSolver { is_known: is_known_with_slopes, ..solver },
+        }
     }
 
     /// Records masses and divisors in the symbols of parameters and state, as the equations of motion are: a mass that
@@ -129,7 +140,8 @@ impl Lagrangian {
                         vec![<Expr as num_traits::Zero>::zero(); masses.len()],
                     );
                 });
-                let largest = blocks(&masses).iter().map(Vec::len).max().unwrap_or_default();
+                let bordered = self.equations(&phase).bordered();
+                let largest = blocks(&bordered).iter().map(Vec::len).max().unwrap_or_default();
                 (masses.concat(), [pivots, divisors], level, largest)
             })?;
         Ok(RecordedMasses { graph, masses, pivots, divisors, level, largest_block })
@@ -167,6 +179,15 @@ impl Lagrangian {
     /// Computes D = det [[M, aᵀ], [a, 0]] by factors: the equations of motion have one solution where none is 0.
     pub fn determinants<T: Scalar>(&self, phase: &Phase<'_, T>) -> Vec<T> {
         block_determinants(&self.equations(phase).bordered())
+    }
+
+    /// Records all slopes in the equations of motion literally, before these are solved: there are accelerations only
+    /// where all of them have values.
+    pub fn slopes_as_written(&self, phase: &Phase<'_, Expr>) -> Vec<Expr> {
+        let LagrangianEquations { terms, carried, .. } = literally(|| self.equations(phase));
+        let EquationTerms { mass, drive, slopes } = terms;
+        let all = [mass.concat(), drive, slopes.concat(), carried].concat();
+        all.into_iter().filter(|own| !own.is_always_defined()).collect()
     }
 
     fn masses(&self, at: &Configuration<'_, Expr>, velocities: &[usize]) -> Vec<Vec<Expr>> {

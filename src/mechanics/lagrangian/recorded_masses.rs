@@ -27,7 +27,7 @@ pub struct RecordedMasses {
     pub divisors: Vec<Expr>,
     /// Level functions and their opposites.
     pub level: Vec<Expr>,
-    /// Size of the largest block of masses without entries outside, by their form.
+    /// Size of the largest block of masses and constraints without entries outside, by their form.
     pub largest_block: usize,
 }
 
@@ -87,20 +87,6 @@ impl RecordedMasses {
             let facts: Vec<Expr> = facts.flat_map(|(own, _)| own.iter().copied()).collect();
             holds(&drawn, &extents, &facts)
         })
-    }
-
-    /// Whether one of the divisors is 0 by its form for some choice of listed values, so that elimination has no value.
-    pub fn vanish_for_some_choice(&self, model: &Model, free: &[Draw]) -> bool {
-        let kept = vec![false; model.level.len()];
-        let draws = [model.parameter_draws(), free.to_vec()].concat();
-        let vanish = |choice: &Vec<Option<Rational>>| {
-            self.drawn((model, &Chart::Free, &kept), choice).is_ok_and(|own| {
-                let mut values =
-                    own.divisors.iter().filter_map(|divisor| own.graph.constant_value(*divisor));
-                values.any(|value| value.is_zero())
-            })
-        };
-        combinations(&draws).is_some_and(|choices| choices.iter().any(vanish))
     }
 
     /// Whether f64 shows masses of both signs at one of the first states of a place, for this number of velocities.

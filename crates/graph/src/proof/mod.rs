@@ -19,6 +19,7 @@
 //! | `free_symbols` | symbols in the place of very many roots, moduli and functions |
 //! | `buckets` | values that are proved together |
 //! | `nonzero` | values that are not identically zero on any cell |
+//! | `required` | cells on which what is required has a value |
 //! | `explore`, `division`, `next`, `cells`, `rewrite` | the cells of signs, and proofs on each |
 //! | `domain`, `fact`, `classes`, `extent` | signs of values over the ranges of the inputs |
 //! | `elimination`, `rank`, `reconstruct`, `coprime` | linear algebra and polynomials modulo a prime |
@@ -80,6 +81,7 @@ mod rationalised;
 mod reconstruct;
 mod refusals;
 mod relations;
+mod required;
 mod rewrite;
 mod rng;
 mod root_numbers;
@@ -130,7 +132,7 @@ use rayon::prelude::*;
 use crate::graph::{Expr, Fault, Graph};
 
 use buckets::{Bucket, buckets, combined};
-use cells::{Cell, Leaf};
+use cells::Cell;
 use digest::SeedDigest;
 use evident::{has_roots, with_evident_signs};
 use explore::{Explored, Explorer, Question};
@@ -245,6 +247,7 @@ impl Prover<'_> {
                 (true, GroupOutcome::Zero(_) | GroupOutcome::Void) => {
                     self.on_all_parts(question, group, outcome)
                 }
+                (_, GroupOutcome::NonZero(_)) => self.where_required(question, group, outcome),
                 _ => Ok(outcome),
             }
         };
@@ -289,37 +292,6 @@ impl Prover<'_> {
         let (special, required) = (&bucket.special, &bucket.required);
         let question = &Question { graph, groups: groups.to_vec(), special, required };
         Explorer { question, prover: self, sources, digest: *digest }.explore(cell)
-    }
-
-    /// Proves values that are undefined on a part of the inputs, as a derivative is where the
-    /// radicand of a root vanishes. The outcome stands if the required values are undefined there too.
-    fn on_all_parts(
-        &self,
-        question: &QuestionData<'_>,
-        group: &Group,
-        outcome: GroupOutcome,
-    ) -> Result<GroupOutcome, Fault> {
-        let QuestionData { graph, sources, .. } = question;
-        let Group { outputs, required, facts, .. } = group;
-        if required.is_empty() {
-            return Ok(outcome);
-        }
-        let wide = Group {
-            outputs: [&outputs[..], required].concat(),
-            required: required.clone(),
-            facts: facts.clone(),
-            presence: Vec::new(),
-        };
-        let asked: &[&[Expr]] = &[outputs, required];
-        let leaves = match buckets(graph, &[wide], sources).pop() {
-            Some(bucket) => self.explore(question, asked, &bucket)?.leaves,
-            None => Vec::new(),
-        };
-        let is_missing = |leaf: &Leaf| matches!(&leaf.results[..], [None] | [None, Some(_)]);
-        Ok(match leaves.iter().any(is_missing) {
-            true => GroupOutcome::Partial,
-            false => outcome,
-        })
     }
 
     /// Proves groups of rational functions.

@@ -39,7 +39,7 @@ use super::ask::{components, independent};
 use super::continued::named;
 use super::local::Coordinates;
 use super::terms::recorded;
-use super::{Ansatz, Effort, Halt, SearchError, abbreviated, branches};
+use super::{Ansatz, Effort, Halt, SearchError, abbreviated, branches, lists};
 use known::ProvedIntegrals;
 pub use known::{has_lists, rank};
 use liouville::case::{AbsenceClaim, Case, PlacedClaim};
@@ -153,6 +153,8 @@ fn judged(
     options: &Options,
 ) -> Vec<ClaimReport> {
     let options = Options { trust: Trust::Best, mutants: false, ..*options };
+    let moving = lists::with_motion(case);
+    let case = moving.as_ref().map_or(case, |(own, _)| own);
     let ground = abbreviated(case).and_then(|case| {
         let effort = Effort { options, ..Effort::default() };
         let known = ProvedIntegrals::of(&case, (judged, others), &effort)?;
@@ -180,7 +182,14 @@ fn judged(
             _ => outcome,
         }
     };
-    case.absences.iter().map(|claim| reports::report(claim, outcome(claim))).collect()
+    let report = |claim: &AbsenceClaim| {
+        let mut report = reports::report(claim, outcome(claim));
+        if let Some((_, remark)) = &moving {
+            report.evidence.add_remark(remark.clone());
+        }
+        report
+    };
+    case.absences.iter().map(report).collect()
 }
 
 /// A case whose claims of absence are judged.

@@ -1,7 +1,9 @@
 //! Absence of Darboux polynomials, whose zeros are invariant relations.
 
+use std::time::Duration;
+
 use super::super::orbit::{self, no_others};
-use super::super::{Effort, FoundKind, SearchError, SearchReport};
+use super::super::{Effort, FoundKind, Halt, SearchError, SearchReport};
 use super::{AbsenceCase, AbsenceOutcome};
 use liouville::claim::ClaimKind;
 use liouville::formula::Formula;
@@ -9,6 +11,14 @@ use liouville::verdict::Verdict;
 
 /// Largest number of steps of the eliminations: some seconds.
 const STEPS: f64 = 4e9;
+
+/// Longest time of a search for a polynomial that contradicts a claim that is not proved.
+const MOST_TIME: Duration = Duration::from_secs(10);
+
+/// Time of such a search, within what is left.
+fn time_of_search(effort: &Effort) -> Duration {
+    effort.halt.left().map_or(MOST_TIME, |left| left.min(MOST_TIME))
+}
 
 /// Judges the claim that all Darboux polynomials up to a degree are products of factors of those
 /// that the case claims and that are proved.
@@ -46,6 +56,7 @@ pub fn no_invariant_relation(
     // Functions in other claims would be adjoined to the polynomials.
     let mut alone = case.clone();
     alone.claims.retain(|claim| matches!(claim.kind, ClaimKind::Relation(_)));
+    let effort = &Effort { halt: Halt::within(time_of_search(effort)), ..effort.clone() };
     match orbit::search(&alone, effort, false, &mut report, &mut |_| {}) {
         Err(SearchError::Stopped) => {}
         other => other?,

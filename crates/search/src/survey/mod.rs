@@ -68,7 +68,7 @@ pub use unknown::{SearchOutcome, of_search};
 pub use wireframe::Wireframe;
 pub use words::GivenParameter;
 
-use crate::Halt;
+use crate::{Halt, lists};
 use geometry::Geometry;
 use hierarchy::KnownFeatures;
 use question::SurveyQuestion;
@@ -166,6 +166,15 @@ pub fn survey(
 ) -> Result<Survey, JudgeError> {
     if case.model.system.is_map() {
         return Err(JudgeError::Discrete);
+    }
+    if let Some((moving, remark)) = lists::with_motion(case) {
+        let found = survey(&moving, options, halt, progress)?;
+        return Ok(Survey {
+            description: Description::of(case),
+            parameters: words::parameters(case),
+            remarks: [vec![remark], found.remarks].concat(),
+            ..found
+        });
     }
     let mut found = of_all_values(case, options, halt, progress)?;
     let places = by_value::places(case, &mut |own, values| {
