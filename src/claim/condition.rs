@@ -45,7 +45,9 @@ impl Need {
             Self::Zeros { function } => vec![*function],
             Self::OneToOne { moved } => vec![*moved],
             Self::Finite { value, field } => [&[*value], &field[..]].concat(),
-            Self::ValueOnZeros { function, factor, inverse } => vec![*function, *factor, *inverse],
+            Self::ValueOnZeros { function, factor, inverse } => {
+                [*function, *factor].into_iter().chain(*inverse).collect()
+            }
         }
     }
 }
@@ -103,7 +105,7 @@ pub enum Need {
         function: Expr,
         /// Factor, recorded literally.
         factor: Expr,
-        /// Reciprocal of the factor.
-        inverse: Expr,
+        /// Reciprocal of the factor; none of an entry of a matrix.
+        inverse: Option<Expr>,
     },
 }

@@ -3,7 +3,7 @@
 use num_dual::DualNum;
 
 use super::of_bracket::{defects, images_as_written, of, scalar_in, variables};
-use super::{Jets, Reader, Statement};
+use super::{Condition, Jets, Reader, Statement};
 use crate::formula::Formula;
 use crate::graph::{Expr, literally};
 use crate::mechanics::calculus::DualPoint;
@@ -38,6 +38,13 @@ impl Statement for DensityInVariables {
         let along = jet.in_variables_along_field(variables);
         let growth = self.0.logarithmic_derivative(&mut |symbol| along.value(symbol));
         vec![growth + jet.divergence_in_variables(variables) - jet.level_cofactor(kept)]
+    }
+
+    fn conditions(&self, jet: &DualPoint<'_, Expr>, _: &[bool]) -> Vec<Condition> {
+        let variables = of(jet.phase.model());
+        let density = jet.in_variables(variables).phase.scalar(&self.0);
+        let measure = density * determinant(&jet.slopes_of_variables(variables));
+        vec![Condition::continuous(vec![measure], "the measure")]
     }
 
     /// 1/ρ, and 1/det dφ: dependent variables have no volume.

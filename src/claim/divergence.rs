@@ -3,7 +3,7 @@
 //! F is the divergence relative to the volume ρ dx, or ρσ on a level set with the volume σ of
 //! [`Density`](super::Density), which is invariant exactly when F = 0.
 
-use super::{Objection, Reader, ResidualContext, Statement};
+use super::{Condition, Objection, Reader, ResidualContext, Statement};
 use crate::formula::{Formula, Type};
 use crate::graph::Expr;
 use crate::mechanics::Model;
@@ -68,6 +68,14 @@ impl Statement for Divergence {
 
     fn residual<T: Scalar>(&self, jet: &DualPoint<'_, T>, kept: &[bool]) -> Vec<T> {
         vec![self.growth(jet, kept) - jet.phase.scalar(&self.divergence)]
+    }
+
+    fn conditions(&self, jet: &DualPoint<'_, Expr>, _: &[bool]) -> Vec<Condition> {
+        let volume = self.volume.iter().map(|own| jet.phase.scalar(own)).collect::<Vec<Expr>>();
+        match jet.phase.model().system.is_map() || volume.is_empty() {
+            true => Vec::new(),
+            false => vec![Condition::continuous(volume, "the volume")],
+        }
     }
 
     /// The scale |v|/|x| and F itself, in squares.

@@ -28,7 +28,7 @@ pub struct Rate {
     rate: Formula,
 }
 
-/// L_vF = κF, or F∘Φ = κF, so that F = 0 is invariant.
+/// L_vF = κF, or F∘Φ = κF, so that F = 0 is invariant; of a vector F with a square matrix κ.
 #[derive(Clone, Debug)]
 pub struct Relation {
     /// F.
@@ -137,9 +137,26 @@ impl Statement for Relation {
     const OF_MAPS: bool = true;
 
     fn read<R: Reader>(from: &R) -> Result<Self, R::Error> {
-        let function = from.required(Self::NAME, Some(Type::Scalar))?;
-        let cofactor = from.required("cofactor", Some(function.value_type()))?;
-        Ok(Self { function, cofactor })
+        let function = from.required(Self::NAME, None)?;
+        let (wanted, remedy) = match function.value_type() {
+            Type::Scalar => (Type::Scalar, "write a scalar"),
+            Type::Vector(count) => {
+                (Type::Matrix(count, count), "write a square matrix κ with F' = κ*F")
+            }
+            other @ Type::Matrix(..) => {
+                let message = format!("a {} is no scalar or vector", other.in_full());
+                return Err(from.complaint(Self::NAME, message, "write its entries as a vector"));
+            }
+        };
+        let cofactor = from.required("cofactor", None)?;
+        match cofactor.value_type() {
+            own if own == wanted => Ok(Self { function, cofactor }),
+            own => {
+                let (own, of) = (own.in_full(), function.value_type().in_full());
+                let message = format!("the cofactor of a {of} is no {own}");
+                Err(from.complaint("cofactor", message, remedy))
+            }
+        }
     }
 
     fn at_images_of_maps(&self) -> Vec<&Formula> {
@@ -161,7 +178,7 @@ impl Statement for Relation {
     fn layout(&self, boxes: Boxes<'_>) -> Option<Layout> {
         let zero = Layout::Number("0".to_string());
         let relation = Layout::equation(boxes.formula(&self.function), zero);
-        let cofactor = Layout::name("κ", Type::Scalar);
+        let cofactor = Layout::name("κ", self.cofactor.value_type());
         let cofactor = Layout::equation(cofactor, boxes.formula(&self.cofactor));
         Some(Layout::listed([relation, cofactor]))
     }
@@ -172,11 +189,18 @@ impl Statement for Relation {
 
     /// Requires that κ has no pole on all of F = 0: x' = 1 = (1/x) x does not preserve x = 0.
     fn conditions(&self, jet: &DualPoint<'_, Expr>, _: &[bool]) -> Vec<Condition> {
-        let function = jet.phase.scalar(&self.function);
+        let components = jet.phase.evaluate(&self.function).components();
+        // A vector is 0 where the sum of its squares is.
+        let (function, inverse) = match components[..] {
+            [function] if self.function.value_type() == Type::Scalar => {
+                (function, Some(jet.phase.scalar(&self.cofactor).recip()))
+            }
+            _ => (components.iter().map(|own| *own * *own).sum(), None),
+        };
         let factor = jet.phase.evaluate_literally(&self.cofactor).components();
-        let inverse = jet.phase.scalar(&self.cofactor).recip();
         let integrands = jet.phase.presupposed(&self.cofactor).into_iter();
-        let integrands = integrands.map(|factor| (factor, factor.recip()));
+        let integrands =
+            integrands.map(|factor| (factor, inverse.is_some().then(|| factor.recip())));
         let condition = |(factor, inverse)| {
             Condition {
             need: Need::ValueOnZeros { function, factor, inverse },
@@ -193,11 +217,11 @@ impl Statement for Relation {
             is_essential: false,
         };
         let identical = "F is 0 identically: this says nothing";
-        let vacuous = [Condition::nonzero(vec![function], identical), zeros];
+        let vacuous = [Condition::nonzero(components.clone(), identical), zeros];
         let factors = factor.into_iter().map(|factor| (factor, inverse)).chain(integrands);
         let mut all: Vec<Condition> = factors.map(condition).chain(vacuous).collect();
         if !jet.phase.model().system.is_map() {
-            all.push(Condition::continuous(vec![function], "F"));
+            all.push(Condition::continuous(components, "F"));
         }
         all
     }
@@ -218,12 +242,14 @@ impl Statement for Relation {
     }
 
     fn residual<T: Scalar>(&self, jet: &DualPoint<'_, T>, _: &[bool]) -> Vec<T> {
-        let value = jet.phase.scalar(&self.cofactor) * jet.phase.scalar(&self.function);
+        let function = jet.phase.evaluate(&self.function).components();
+        let cofactor = jet.phase.evaluate(&self.cofactor).components();
+        let values = cofactor.chunks(function.len().max(1)).map(|row| dot(row, &function));
         let moved = match jet.phase.model().system.is_map() {
-            true => vec![jet.image().scalar(&self.function)],
+            true => jet.image().evaluate(&self.function).components(),
             false => jet.rates(&self.function),
         };
-        difference(moved, vec![value])
+        difference(moved, values.collect())
     }
 }
 

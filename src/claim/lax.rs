@@ -121,7 +121,8 @@ impl Statement for Lax {
         let slopes = self.trace_slopes(jet);
         let most = self.powers();
         let otherwise = format!("tr Lᵏ is constant for k ≤ {most}: these are no integrals");
-        vec![Condition::nonzero(slopes, &otherwise)]
+        let matrix = jet.phase.evaluate(&self.matrix).components();
+        vec![Condition::nonzero(slopes, &otherwise), Condition::continuous(matrix, "L")]
     }
 
     fn residual<T: Scalar>(&self, jet: &DualPoint<'_, T>, _: &[bool]) -> Vec<T> {

@@ -301,11 +301,13 @@ impl Statement for Map {
 
     fn conditions(&self, jet: &DualPoint<'_, Expr>, _: &[bool]) -> Vec<Condition> {
         let rows: Vec<_> = self.images.iter().flat_map(|image| jet.gradients(image)).collect();
-        vec![Condition {
+        let independent = Condition {
             need: Need::Rank { rank: rows.len(), rows },
             otherwise: "the new variables obey a relation".to_string(),
             is_essential: false,
-        }]
+        };
+        let images = self.images.iter().flat_map(|image| jet.phase.evaluate(image).components());
+        vec![independent, Condition::continuous(images.collect(), "the map")]
     }
 
     fn residual<T: Scalar>(&self, jet: &DualPoint<'_, T>, _: &[bool]) -> Vec<T> {

@@ -141,6 +141,14 @@ impl Model {
         own.chain(&self.extension).collect()
     }
 
+    /// Whether an exponent in the equations of motion has listed values.
+    pub(crate) fn has_listed_exponents(&self) -> bool {
+        let own = self.equations_of_motion().into_iter();
+        let mut all =
+            own.flat_map(|own| self.vocabulary.with_abbreviations(own, &self.abbreviations));
+        all.any(|own| own.has_varying_exponent(&|symbol| self.is_listed(symbol)))
+    }
+
     /// Whether a formula contains quantities that the system defines, such as rates.
     pub fn has_quantities(&self, formula: &Formula) -> bool {
         self.has_quantity(formula, &|_| true)

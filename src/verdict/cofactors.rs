@@ -16,8 +16,8 @@ use crate::proof::{Extent, are_coprime, is_nowhere_zero, sign};
 pub(super) struct Cofactor {
     /// Its value, recorded literally.
     pub factor: Expr,
-    /// Reciprocal of the value.
-    pub inverse: Expr,
+    /// Reciprocal of the value; none of an entry of a matrix.
+    pub inverse: Option<Expr>,
 }
 
 /// States that are a whole place with no exception.
@@ -95,12 +95,13 @@ impl Judging<'_> {
         let Some(Filling { sampler: filling, extents }) = self.filling(sampler)? else {
             return Ok(false);
         };
-        // What is divided by in lowest terms follows from an identity in the same variables.
-        let is_identity =
-            filling.kept() == sampler.kept() || self.holds_in_space(&filling, item)?;
+        // What is divided by in lowest terms follows from an identity in the same variables, of scalars.
+        let is_identity = cofactor.inverse.is_some()
+            && (filling.kept() == sampler.kept() || self.holds_in_space(&filling, item)?);
         let only = |roots: &[(Expr, Need)]| roots.iter().map(|root| root.0).collect::<Vec<Expr>>();
         let (radicands, known) = (only(&roots), only(&roots_of_field));
-        let outputs = [&[function, cofactor.inverse][..], &poles, &radicands, &known].concat();
+        let inverse = cofactor.inverse.unwrap_or(function);
+        let outputs = [&[function, inverse][..], &poles, &radicands, &known].concat();
         let Some(combinations) = combinations(filling.recipes()) else { return Ok(false) };
         for fixed in combinations {
             let (graph, groups) =

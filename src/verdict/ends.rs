@@ -5,7 +5,7 @@ use super::existence::AtNumbers;
 use super::judging::Judging;
 use super::ladder::{LADDER_BITS, Open};
 use super::sampler::Sampler;
-use crate::mechanics::Draw;
+use crate::mechanics::{Draw, NumberLine};
 use crate::number::mixed::{Mixed, Number};
 use crate::number::rational::Rational;
 
@@ -15,15 +15,20 @@ const DISTANCES: [i64; 2] = [10, 20];
 const MOST: usize = 128;
 /// Number of states at which all draws are near ends.
 const CORNERS: usize = 8;
+/// Factors of numbers without a range, as a time that the file does not declare.
+const FAR: [i64; 4] = [4, 16, 64, 256];
+/// Number of states for each factor.
+const MOST_FAR: usize = 8;
 
 impl Judging<'_> {
-    /// Looks for a witness near the ends of the ranges, against claims that are still open.
+    /// Looks for a witness near the ends of the ranges, and far away where there are none, against claims that are
+    /// still open.
     pub(super) fn states_near_ends(&self, sampler: &Sampler, open: &mut Open<'_, '_>) {
         let unsettled = open.iter_mut().filter(|(_, status)| {
             status.settled.is_none() && status.undefined.is_none() && !status.is_zero
         });
         for (item, status) in unsettled {
-            let mut all = near_ends(sampler);
+            let mut all = near_ends(sampler).chain(far_away(sampler));
             all.any(|numbers| {
                 self.examined_at(item, sampler, &numbers, status) == AtNumbers::Refuted
             });
@@ -60,5 +65,22 @@ pub(super) fn near_ends(sampler: &Sampler) -> impl Iterator<Item = Vec<Rational>
             Some(if is_low { &range.low + &away } else { &range.high - &away })
         };
         drawn.iter().zip(recipes).enumerate().map(moved).collect()
+    })
+}
+
+/// Iterates over draws of states at which all numbers without a range are larger than they are drawn.
+pub(super) fn far_away(sampler: &Sampler) -> impl Iterator<Item = Vec<Rational>> + '_ {
+    let is_free = |draw: &Draw| matches!(draw, Draw::Of(NumberLine::All, _));
+    let has_free = sampler.recipes().iter().any(is_free);
+    let count = if has_free { FAR.len() * MOST_FAR } else { 0 };
+    (0..count).filter_map(move |index| {
+        let domain = Mixed::new(LADDER_BITS[0]);
+        let drawn = sampler.drawn(&domain, 1, index as u64);
+        let factor = Rational::from(FAR[index % FAR.len()]);
+        let moved = |(value, draw): (&Number, &Draw)| {
+            let Number::Exact(value) = value else { return None };
+            Some(if is_free(draw) { value * &factor } else { value.clone() })
+        };
+        drawn.iter().zip(sampler.recipes()).map(moved).collect()
     })
 }

@@ -242,7 +242,8 @@ impl Judging<'_> {
             }
         }
         let written = [hidden, &self.common.requirement].concat();
-        if written.is_empty() {
+        // A power is a whole one for each listed exponent by itself, and then has values at all bases.
+        if written.is_empty() || self.case.model.has_listed_exponents() {
             return Ok(None);
         }
         let values = self.run(&written).at(&Ball::<TAPE_LANES>, states);

@@ -312,3 +312,31 @@ fn a_cofactor_without_a_value_at_the_zeros_says_nothing_of_them() {
     let found = judge(&case, &Options::default()).expect("judged").claims[0].verdict;
     assert_eq!(found, Verdict::Proved, "the radicand is 1 where x = 0");
 }
+
+#[test]
+fn a_vector_has_a_matrix_as_cofactor() {
+    let judged = |rates: [&str; 3], function: &str, cofactor: &str| {
+        let rate = |(name, rate): (&&str, &str)| format!("\"{name}'\" = '{rate}'\n");
+        let field: String = NAMES.iter().zip(rates).map(rate).collect();
+        let text = format!(
+            "title = 't'\n[state]\nx = '-2..2'\ny = '-2..2'\nz = '-2..2'\n[field]\n{field}\
+             [[claim]]\ninvariant-relation = '{function}'\ncofactor = '{cofactor}'\nexpect = 'open'\n"
+        );
+        let case = Case::parse(&text, &[]).expect("a case");
+        judge(&case, &Options::default()).expect("judged").claims[0].verdict
+    };
+    let turned = ["y*z", "3*x - y", "z^2"];
+    assert_eq!(judged(turned, "[x, y]", "[[0, z], [3, -1]]"), Verdict::Proved);
+    assert_eq!(judged(turned, "[x, y]", "[[0, 3], [z, -1]]"), Verdict::Refuted);
+    assert_eq!(judged(["y/z", "x/z", "1"], "[x, y]", "[[0, 1/z], [1/z, 0]]"), Verdict::Proved);
+    // x' = 1 leaves x = y = 0, and so does y' = x/y along x = y.
+    assert_eq!(judged(["1", "0", "0"], "[x, y]", "[[1/x, 0], [0, 0]]"), Verdict::Undecided);
+    assert_eq!(
+        judged(["x/y + y/x", "0", "0"], "[x, y]", "[[1/y, 1/x], [0, 0]]"),
+        Verdict::Undecided
+    );
+    let text = "title = 't'\n[state]\nx = '-2..2'\ny = '-2..2'\n[field]\nx = 'y'\ny = 'x'\n[[claim]]\n\
+                invariant-relation = '[x, y]'\ncofactor = '1'\n";
+    let error = Case::parse(text, &[]).expect_err("a vector needs a matrix").to_string();
+    assert!(error.contains("the cofactor of a vector"), "{error}");
+}

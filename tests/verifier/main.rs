@@ -15,6 +15,7 @@ mod divisors;
 mod documents;
 mod domains;
 mod doubts;
+mod elimination;
 mod ends_of_ranges;
 mod expanded_levels;
 #[path = "../common/files.rs"]

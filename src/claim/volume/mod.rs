@@ -20,7 +20,7 @@ use crate::number::rational::Rational;
 use crate::proof::{Extent, is_seen_nowhere_zero, sign};
 
 /// Number of bodies of the case that are tried, and the seed by which `eval` draws them too.
-const BODIES: u64 = 4;
+const BODIES: u64 = 64;
 const SEED: u64 = 1;
 
 /// Number of pieces of the ranges in which ρ₀ is enclosed.
@@ -52,7 +52,7 @@ fn name(model: &Model) -> String {
 
 /// Returns the reason why the criterion proves nothing, if it is known that ρ₀ vanishes.
 pub(super) fn limit_of_proof(model: &Model) -> Option<String> {
-    match zeros(model, false) {
+    match zeros(model) {
         Zeros::Known(place) => Some(format!(
             "the criterion is 0, and {} is 0 {place}: the equations of motion have no value there, and \
              the criterion tells of a density only where this is not 0 for all γ",
@@ -64,7 +64,7 @@ pub(super) fn limit_of_proof(model: &Model) -> Option<String> {
 
 /// Returns the hypothesis of a criterion that ρ₀ vanishes nowhere, if that is not known.
 pub(super) fn assumption(model: &Model) -> Option<(Assumption, String)> {
-    matches!(zeros(model, true), Zeros::Possible).then(|| {
+    matches!(zeros(model), Zeros::Possible).then(|| {
         let name = name(model);
         let words =
             format!("it is not known that {name} ≠ 0 for all γ, which the criterion presupposes");
@@ -72,8 +72,8 @@ pub(super) fn assumption(model: &Model) -> Option<(Assumption, String)> {
     })
 }
 
-/// Looks for zeros; where none is seen, `by_intervals` tells whether to look for a proof of that.
-fn zeros(model: &Model, by_intervals: bool) -> Zeros {
+/// Looks for zeros: on the axes, and for bodies of the case where bounds do not show that there are none.
+fn zeros(model: &Model) -> Zeros {
     let Some(body) = model.system.body() else { return Zeros::None };
     let draws = model.parameter_draws();
     let mut extents: Vec<Extent> = draws.iter().map(Draw::extent).collect();
@@ -116,13 +116,6 @@ fn zeros(model: &Model, by_intervals: bool) -> Zeros {
     if !vanishing.is_empty() {
         return Zeros::Known(format!("at {}", named(&vanishing)));
     }
-    let tape = Tape::new(&graph, &[*turned]);
-    if let Some(body) = (0..BODIES).find(|body| takes_both_signs(&tape, &draws, *body)) {
-        return Zeros::Known(format!("for some γ of the body of state {body}"));
-    }
-    if !by_intervals {
-        return Zeros::Possible;
-    }
     let is_nonzero =
         |value: &Expr| is_seen_nowhere_zero(&graph, &extents, &sphere, &[*value], PIECES);
     let is_positive = |value: &Expr, may_vanish: bool| {
@@ -134,8 +127,14 @@ fn zeros(model: &Model, by_intervals: bool) -> Zeros {
         has_positive_moments(model) || minors.iter().all(|own| is_positive(own, false));
     let is_curved = body.curvature.is_some();
     let is_regular = || !is_curved || curved::is_nowhere_zero(model, body, &draws);
-    let is_nowhere = is_definite && is_positive(mass, true) && is_regular() || is_nonzero(density);
-    if is_nowhere { Zeros::None } else { Zeros::Possible }
+    if is_definite && is_positive(mass, true) && is_regular() || is_nonzero(density) {
+        return Zeros::None;
+    }
+    let tape = Tape::new(&graph, &[*turned]);
+    match (0..BODIES).find(|body| takes_both_signs(&tape, &draws, *body)) {
+        Some(body) => Zeros::Known(format!("for some γ of the body of state {body}")),
+        None => Zeros::Possible,
+    }
 }
 
 /// Numbers between -1 and 1.

@@ -34,6 +34,14 @@ fn jumps_are_told() {
         let own = remark(field, claim);
         assert!(own.contains("F jumps") || own.contains("ρ jumps"), "{claim}: {own}");
     }
+    for claim in [
+        "lax = { L = '[[y/|y|, 0], [0, 1]]', A = '[[0, 0], [0, 0]]' }",
+        "divergence = '0'\nvolume = '2 + y/|y|'",
+        "map = { A = 'x*y/|y|', B = 'y' }\nfield = { A = '|B|', B = '-A*|B|/B' }",
+    ] {
+        let own = remark(TURN, claim);
+        assert!(own.contains("y = 0 ") && own.contains(" jumps"), "{claim}: {own}");
+    }
     let own = remark(FRICTION, "density = '1'");
     assert!(own.contains("y = 0 the field jumps"), "{own}");
 }

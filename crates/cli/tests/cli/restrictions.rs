@@ -152,6 +152,20 @@ fn remarks_on_claims_are_in_the_report() {
 }
 
 #[test]
+fn a_listed_value_without_motion_is_left_out() {
+    let head = format!("[parameters]\na = 'one of 0, 2'\n{TWO}");
+    let found = field(&head, &[("x", "y/a"), ("y", "−x/a")], "");
+    assert_eq!(found.hierarchy.class, HierarchyClass::IntegralAndMeasure);
+    assert!(found.remarks[0].starts_with("nothing is said for a = 0"), "{:?}", found.remarks);
+    // D_T = 0 for R = 1, and the integral of a ball for the others.
+    let ball = surveyed(
+        "title = 't'\nsystem = 'rubber-sphere'\n[parameters]\nm = 1\nR = 'one of 1/2, 1'\n\
+         I = 'inertia(0.5..3)'\nk = -1\n[body]\nshape = 'ball'\n",
+    );
+    assert!(ball.remarks[0].starts_with("nothing is said for R = 1"), "{:?}", ball.remarks);
+}
+
+#[test]
 fn a_body_of_two_parts_is_no_ball() {
     let found = surveyed(
         "title = 't'\nsystem = 'rubber-plane'\n[parameters]\nm = 1\nR = 1\nI = 'spherical(0.5..3)'\n\

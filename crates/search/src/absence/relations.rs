@@ -6,7 +6,7 @@ use super::super::orbit::{self, no_others};
 use super::super::{Effort, FoundKind, Halt, SearchError, SearchReport};
 use super::{AbsenceCase, AbsenceOutcome};
 use liouville::claim::ClaimKind;
-use liouville::formula::Formula;
+use liouville::formula::{Formula, Type};
 use liouville::verdict::Verdict;
 
 /// Largest number of steps of the eliminations: some seconds.
@@ -32,7 +32,9 @@ pub fn no_invariant_relation(
     let case = asked.case;
     let mut known: Vec<Formula> = Vec::new();
     for (claim, report) in case.claims.iter().zip(asked.reports) {
-        if let (ClaimKind::Relation(own), Verdict::Proved) = (&claim.kind, report.verdict) {
+        if let (ClaimKind::Relation(own), Verdict::Proved) = (&claim.kind, report.verdict)
+            && own.function.value_type() == Type::Scalar
+        {
             known.push(own.function.clone());
         }
     }
