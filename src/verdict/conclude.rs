@@ -7,6 +7,8 @@ use super::recorded::RecordedClaim;
 use super::restriction::Flaw;
 use crate::case::Case;
 use crate::claim::{ClaimKind, PlaceName};
+use crate::formula::{Formula, Type};
+use crate::mechanics::{Meaning, Model};
 
 /// Remark on a value that is shown not to vanish at some states, and may vanish at others.
 const ON_A_PART: &str = "shown on a part of the states only: where a modulus, or a root that depends on \
@@ -59,6 +61,11 @@ pub fn report(
         verdict = Verdict::Undecided;
         evidence.reason = Some(limit);
         evidence.holds.clear();
+    }
+    if let (Verdict::Refuted, Some(frame)) = (verdict, frame_in(&case.model, item)) {
+        evidence.add_remark(format!(
+            "{frame} is any 3×3 matrix, and no rotation at this state: what holds for rotations alone is refuted"
+        ));
     }
     let holds = matches!(verdict, Verdict::Proved | Verdict::Confirmed);
     if holds {
@@ -160,4 +167,18 @@ pub(super) fn advice_on_rate(kind: &ClaimKind) -> &'static str {
         }
         _ => "write the rate under `equals` as a sum of terms that are never positive",
     }
+}
+
+/// Name of the orientation of a body, where a claim contains it.
+fn frame_in<'m>(model: &'m Model, item: &RecordedClaim<'_>) -> Option<&'m str> {
+    model.system.body()?;
+    let is_used = |variable: usize| {
+        let of_claim = item.claim.kind.formulas().into_iter();
+        let mut all = of_claim
+            .flat_map(|own| model.vocabulary.with_abbreviations(own, &model.abbreviations))
+            .flat_map(Formula::symbols);
+        all.any(|symbol| model.vocabulary.entry(symbol).meaning == Meaning::State(variable))
+    };
+    let frame = model.state.iter().position(|variable| variable.kind == Type::MATRIX)?;
+    is_used(frame).then(|| model.state[frame].name.as_str())
 }
