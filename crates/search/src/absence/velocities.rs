@@ -5,12 +5,15 @@ use super::super::local::Coordinates;
 use super::super::origin::Remark;
 use super::super::products::degree_in;
 use super::super::{
-    Effort, Found, FoundKind, SearchError, SearchReport, ansatz, densities, integrals, multipliers,
-    orbit,
+    Effort, Found, FoundKind, Halt, SearchError, SearchReport, ansatz, densities, integrals,
+    multipliers, orbit,
 };
 use super::found::{Part, shown};
 use super::{AbsenceCase, AbsenceOutcome, Counted, claimed_densities, generated};
 use liouville::verdict::Verdict;
+
+/// Share of the time that is left for a search among integrals of degree 1.
+const SHARE_OF_FIRST: f64 = 0.25;
 
 /// Judges a claim by Taylor coefficients.
 pub fn judge(
@@ -108,19 +111,22 @@ fn no_integral(
             counted: super::reports::all_known(dimension),
         });
     }
-    let parts: [Part<'_>; 4] = [
-        &mut |report| densities::densities(case, effort, report),
-        &mut |report| integrals::integrals(case, effort, report),
-        &mut |report| orbit::search(case, effort, false, report, &mut |_| {}),
-        &mut |report| ansatz::search(case, effort, report, &mut |_| {}),
-    ];
     let mut exhibit = None;
-    for part in parts {
-        part(&mut report)?;
-        exhibit = witness(asked, coordinates, most, &report)?;
-        if exhibit.is_some() {
-            break;
-        }
+    if most > 1 {
+        // Integrals of degree 1 are found soonest, and one of them contradicts the claim for each degree.
+        let halt = effort
+            .halt
+            .left()
+            .map_or_else(|| effort.halt.clone(), |left| Halt::within(left.mul_f64(SHARE_OF_FIRST)));
+        let first = Effort { degree: 1, halt, ..effort.clone() };
+        let found = exhibited(asked, coordinates, (most, &first), report.clone());
+        exhibit = match found {
+            Err(SearchError::Stopped) => None,
+            other => other?,
+        };
+    }
+    if exhibit.is_none() {
+        exhibit = exhibited(asked, coordinates, (most, effort), report)?;
     }
     Ok(exhibit.map(AbsenceOutcome::Exhibited).unwrap_or_else(|| {
         AbsenceOutcome::Bounded(format!(
@@ -129,6 +135,30 @@ fn no_integral(
             known.dimension
         ))
     }))
+}
+
+/// Searches for an integral that contradicts the claim.
+fn exhibited(
+    asked: &AbsenceCase<'_>,
+    coordinates: &Coordinates,
+    (most, effort): (u32, &Effort),
+    mut report: SearchReport,
+) -> Result<Option<String>, SearchError> {
+    let case = asked.case;
+    let parts: [Part<'_>; 4] = [
+        &mut |report| densities::densities(case, effort, report),
+        &mut |report| integrals::integrals(case, effort, report),
+        &mut |report| orbit::search(case, effort, false, report, &mut |_| {}),
+        &mut |report| ansatz::search(case, effort, report, &mut |_| {}),
+    ];
+    for part in parts {
+        part(&mut report)?;
+        let exhibit = witness(asked, coordinates, most, &report)?;
+        if exhibit.is_some() {
+            return Ok(exhibit);
+        }
+    }
+    Ok(None)
 }
 
 /// Returns an integral of a report that refutes the claim.
