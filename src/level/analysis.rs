@@ -56,13 +56,19 @@ pub fn solve(model: &Model, kept: &[bool], order: Order) -> Option<Solution> {
             Order::ByRoots => Vec::new(),
             Order::Usual | Order::Jointly => Frame::all(&search.derivatives),
         };
-        let framed = (!frames.is_empty()).then(|| search.steps(frames)).flatten();
-        framed.or_else(|| search.steps(Vec::new()))
+        let last = search.determined_last();
+        let framed = |last: &[(usize, usize)]| {
+            (!frames.is_empty()).then(|| search.steps(frames.clone(), last)).flatten()
+        };
+        let later = || {
+            (!last.is_empty()).then(|| framed(&last).or_else(|| search.steps(Vec::new(), &last)))
+        };
+        framed(&[]).or_else(|| search.steps(Vec::new(), &[])).or_else(|| later().flatten())
     });
     let steps = plain.or_else(|| {
         let has_roots = equations.iter().any(|index| model.level[*index].root.is_some());
         let derivatives = derivatives(true).filter(|_| has_roots)?;
-        OrderSearch { model, derivatives, order }.steps(Vec::new())
+        OrderSearch { model, derivatives, order }.steps(Vec::new(), &[])
     })?;
     Some(Solution { steps })
 }
@@ -75,11 +81,27 @@ struct OrderSearch<'m> {
 }
 
 impl OrderSearch<'_> {
-    /// Solves the equations, with those of some frames first.
-    fn steps(&self, frames: Vec<Frame>) -> Option<Vec<SolutionStep>> {
+    /// Lists equations with a component that enters no other equation, and this one linearly with a number as factor.
+    fn determined_last(&self) -> Vec<(usize, usize)> {
+        let alone = |(index, own): (usize, &EquationDerivatives)| {
+            let others = self.derivatives.iter().enumerate().filter(|(other, _)| *other != index);
+            let elsewhere = others.fold(0, |set, (_, other)| set | other.contained());
+            let has_number = |k: &usize| {
+                let slope = own.graph.constant_value(own.slopes[*k]);
+                slope.is_some_and(|slope| !slope.is_zero())
+            };
+            let component = members(own.contained() & !elsewhere).into_iter().find(has_number)?;
+            Some((index, component))
+        };
+        self.derivatives.iter().enumerate().filter_map(alone).collect()
+    }
+
+    /// Solves the equations, with those of some frames first, and some at last for a component of each.
+    fn steps(&self, frames: Vec<Frame>, last: &[(usize, usize)]) -> Option<Vec<SolutionStep>> {
         let is_left = |index: &usize| {
             let equation = &self.derivatives[*index].equation;
             !frames.iter().any(|frame| frame.equations.contains(equation))
+                && !last.iter().any(|(own, _)| own == index)
         };
         let mut left: Vec<usize> = (0..self.derivatives.len()).filter(is_left).collect();
         // Components that are solved for, or free because an equation was solved for another
@@ -126,6 +148,12 @@ impl OrderSearch<'_> {
             left.retain(|index| !members.contains(index));
             steps.push(step);
         }
+        steps.extend(last.iter().map(|(index, component)| {
+            let own = &self.derivatives[*index];
+            let all = self.linear_together(&[*index], bit(*component), own.contained());
+            let (equations, components) = (vec![own.equation], vec![*component]);
+            SolutionStep::Linear { equations, components, all }
+        }));
         // A parameter that is solved for depends on the whole state: it comes last.
         let is_parameter = |step: &SolutionStep| matches!(step, SolutionStep::Parameter { .. });
         let (parameters, mut others): (Vec<SolutionStep>, Vec<SolutionStep>) =
