@@ -61,6 +61,8 @@ pub enum Need {
         rows: Vec<Vec<Expr>>,
         /// Required rank.
         rank: usize,
+        /// Number of rows that are given by the level, and count as no dimension.
+        fixed: usize,
     },
     /// A value is not 0 at any state.
     NotZero {

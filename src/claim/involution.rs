@@ -139,13 +139,13 @@ impl Statement for Involution {
             rows.extend(self.functions.iter().flat_map(|own| jet.gradients(own)));
             let count = rows.len();
             let otherwise = "the functions are dependent".to_string();
-            let need = Need::Rank { rows, rank: count };
+            let need = Need::Rank { rows, rank: count, fixed: 0 };
             conditions.push(Condition { need, otherwise, is_essential: true });
             let others = dimension.saturating_sub(count);
             let need = match self.bracket {
                 MotionBracket::OfVariables(_) => {
                     let rows = self.covectors(jet).iter().map(|own| turned(&tensor, own)).collect();
-                    Need::Rank { rows, rank: others }
+                    Need::Rank { rows, rank: others, fixed: 0 }
                 }
                 // No combination of independent functions has the field 0.
                 MotionBracket::OfMomenta => Need::NotZero {

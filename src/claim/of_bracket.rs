@@ -217,7 +217,7 @@ pub(super) fn they_vary(
 ) -> Condition {
     let images = of(jet.phase.model()).images.iter();
     let rows: Vec<Vec<Expr>> = images.flat_map(|image| jet.gradients(image)).collect();
-    let need = Need::Rank { rank: rows.len(), rows };
+    let need = Need::Rank { rank: rows.len(), rows, fixed: 0 };
     Condition { need, otherwise: otherwise.to_string(), is_essential }
 }
 

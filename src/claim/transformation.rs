@@ -135,9 +135,11 @@ impl Statement for Symmetry {
         let row = |k: usize| columns.iter().map(|column| column[k].eps).collect();
         let mut rows: Vec<Vec<Expr>> = (0..rank).map(row).collect();
         // On a level it is enough that no direction tangent to it is lost.
-        rows.extend(jet.level_gradients(kept));
+        let gradients = jet.level_gradients(kept);
+        let fixed = gradients.len();
+        rows.extend(gradients);
         let invertible = Condition {
-            need: Need::Rank { rows, rank },
+            need: Need::Rank { rows, rank, fixed },
             otherwise: "the map cannot be inverted".to_string(),
             is_essential: false,
         };
@@ -302,7 +304,7 @@ impl Statement for Map {
     fn conditions(&self, jet: &DualPoint<'_, Expr>, _: &[bool]) -> Vec<Condition> {
         let rows: Vec<_> = self.images.iter().flat_map(|image| jet.gradients(image)).collect();
         let independent = Condition {
-            need: Need::Rank { rank: rows.len(), rows },
+            need: Need::Rank { rank: rows.len(), rows, fixed: 0 },
             otherwise: "the new variables obey a relation".to_string(),
             is_essential: false,
         };

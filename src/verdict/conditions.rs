@@ -177,7 +177,7 @@ impl Judging<'_> {
     ) -> Result<Option<Unmet>, Fault> {
         let otherwise = &condition.otherwise;
         match &condition.need {
-            Need::Rank { rows, rank } => {
+            Need::Rank { rows, rank, fixed } => {
                 // No field draws states that are found numerically.
                 let ranks = match sampler.is_numerical() {
                     true => None,
@@ -186,7 +186,9 @@ impl Judging<'_> {
                 let found = ranks.and_then(|ranks| ranks.first().copied());
                 let known = match found {
                     Some(found) if found < *rank => {
-                        let reason = format!("{otherwise}: {found} of {rank} dimensions are left");
+                        let (found, all) =
+                            (found.saturating_sub(*fixed), rank.saturating_sub(*fixed));
+                        let reason = format!("{otherwise}: {found} of {all} dimensions are left");
                         return Ok(Some(Unmet::known(reason)));
                     }
                     Some(_) => {

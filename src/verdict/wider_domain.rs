@@ -180,7 +180,9 @@ impl Judging<'_> {
         };
         for condition in own.item.conditions.iter().filter(is_asked) {
             // A rank without which a claim says less is asked no further than for a cell on which it drops.
-            if let (Need::Rank { rows, rank }, false) = (&condition.need, condition.is_essential) {
+            if let (Need::Rank { rows, rank, .. }, false) =
+                (&condition.need, condition.is_essential)
+            {
                 let remark = own.status.evidence.remark.as_deref();
                 let is_known = remark.is_some_and(|own| own.contains(&condition.otherwise));
                 let question = (&rows[..], *rank);
