@@ -1,6 +1,6 @@
 //! Local coordinates of the level, split into positions and velocities.
 
-use num_dual::{Dual, DualNum};
+use num_dual::Dual;
 
 use super::mechanical::Mechanical;
 use super::spheres::projected;

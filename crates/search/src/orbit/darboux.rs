@@ -267,7 +267,7 @@ impl DarbouxSearch<'_, '_> {
         };
         let images = Images { setting: self.setting, width: monomials.len(), is_split: true, make };
         let Some(coefficients) = images::coefficients(&images)? else { return Ok(None) };
-        let functions = self.setting.functions(monomials)?;
+        let functions = self.setting.functions(&monomials)?;
         Ok(coefficients.sum(&(0..monomials.len()).collect::<Vec<_>>(), &functions)?)
     }
 

@@ -13,7 +13,7 @@ use super::super::echelon::{Echelon, nonzero};
 use super::super::terms::recorded;
 use super::super::{FoundKind, SearchError, SearchReport};
 use super::angle::{AngleForm, ConjugatePair};
-use super::claims::{self, OrbitStatement};
+use super::claims;
 use super::factor::RatedPolynomial;
 use super::images::{self, Images};
 use super::known::IndependentIntegrals;

@@ -74,7 +74,7 @@ impl RatedPolynomial {
         };
         let images = Images { setting, width: all.len(), is_split: false, make };
         let Some(coefficients) = images::coefficients(&images)? else { return Ok(None) };
-        let functions = setting.functions(all)?;
+        let functions = setting.functions(&all)?;
         let above = coefficients.sum(&(0..all.len()).collect::<Vec<_>>(), &functions)?;
         let above = above.unwrap_or_else(|| Formula::number(0));
         let below = coefficients.formula(all.len())?;
