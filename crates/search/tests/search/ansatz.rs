@@ -16,8 +16,9 @@ use liouville::case::{Case, Setting};
 use liouville::verdict::Verdict;
 use liouville_search::{Effort, FoundKind, Given, Halt, SearchReport, search};
 
+/// Counts and ansätze alone: searches along orbits have tests of their own.
 fn effort(degree: u32) -> Effort {
-    Effort { degree, ..Effort::default() }
+    Effort { degree, by_class: false, by_factors: false, ..Effort::default() }
 }
 
 fn searched(path: &str, effort: &Effort) -> SearchReport {
