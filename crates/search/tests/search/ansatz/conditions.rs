@@ -214,7 +214,7 @@ fn of_x(rates: [&str; 2]) -> (Vec<String>, String) {
 fn a_claim_without_equations_is_told_why() {
     let asked = |rate: &str, integral: &str| {
         let text = format!(
-            "title = 'x'\n[parameters]\na = '0.5..2'\nb = '0.5..2'\n[state]\nx = '-1..1'\ny = '-1..1'\n\
+            "title = 'x'\n[parameters]\na = '0.5..2'\nb = '0.5..2'\n[state]\nx = '0.5..2'\ny = '0.5..2'\n\
              [field]\n\"x'\" = 'y'\n\"y'\" = '{rate}'\n[[claim]]\nname = 'C'\nintegral = '{integral}'\n"
         );
         let mut wanted = effort(0);
