@@ -21,6 +21,11 @@ fn effort(degree: u32) -> Effort {
     Effort { degree, by_class: false, by_factors: false, ..Effort::default() }
 }
 
+/// Searches along orbits as well.
+fn whole(degree: u32) -> Effort {
+    Effort { degree, ..Effort::default() }
+}
+
 fn searched(path: &str, effort: &Effort) -> SearchReport {
     let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../cases"))
         .join(path)
