@@ -8,6 +8,7 @@ use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::thread::{Builder, available_parallelism};
 use std::time::Duration;
 
+use liouville_cli::report::diagnostic::panic_message;
 use liouville_flow::stoppable;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
@@ -95,8 +96,7 @@ fn cannot_start(error: &dyn std::error::Error) -> PyErr {
 
 /// Error about a fault of the program.
 fn fault(panic: &(dyn Any + Send)) -> PyErr {
-    let text = panic.downcast_ref::<String>().map(String::as_str);
-    let text = text.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("no message");
+    let text = panic_message(panic);
     PyRuntimeError::new_err(format!(
         "liouville failed: {text}\nthis is a fault of the program: please report it with the case"
     ))

@@ -38,6 +38,9 @@ pub enum RankQuestion {
     Drops,
 }
 
+/// Largest number of operations of a sum of squared minors that is looked at on each cell of signs.
+const MOST_OPERATIONS: usize = 1 << 12;
+
 /// A matrix as a function of the draws, with what exists and is not negative at the states.
 pub struct DrawnMatrix<'a> {
     /// Graph of all values.
@@ -122,6 +125,9 @@ impl Judging<'_> {
             Some((sum_of_squared_minors(rows, matrix.rank), one, group))
         })?;
         let Some((value, one, group)) = found else { return Ok(CellRank::Unknown) };
+        if made.operations(&[value]) > MOST_OPERATIONS {
+            return Ok(CellRank::Unknown);
+        }
         let prover = Prover { sources: &sources, extents: &extents, seed: self.options.seed };
         Ok(match prover.zeros(&made, value, one, &group)? {
             Zeros::Thin => CellRank::Full,

@@ -7,7 +7,7 @@
 //!
 //! | variable | |
 //! |---|---|
-//! | `LIOUVILLE_ATTACK=1000000` | number of cases, instead of 4 100 with 5 000 claims |
+//! | `LIOUVILLE_ATTACK=1000000` | number of cases, instead of 2 600 with some 3 200 claims |
 //! | `LIOUVILLE_ATTACK_SEED=7` | seed of the cases |
 //! | `LIOUVILLE_ATTACK_FIRST=250000` | index of the first case, to run a seed in pieces |
 //! | `LIOUVILLE_ATTACK_ONLY=123,456` | indices of single cases |

@@ -13,7 +13,7 @@ use super::told::{Told, told};
 use super::wrong::{Truth, Wrong, weighed};
 
 /// Number of cases with 5 000 claims.
-const CASES: u64 = 4_100;
+const CASES: u64 = 2_600;
 
 /// A plan of a run: the number of cases, the seed, and single cases if wanted.
 #[derive(Clone, Debug)]

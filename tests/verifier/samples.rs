@@ -75,13 +75,23 @@ fn answers_on_false_claims(case: &Case) -> Vec<(String, Vec<GroupOutcome>)> {
 
 #[test]
 fn no_false_claim_is_zero_in_prime_fields() {
+    false_claims_of_one_file_in(4, 250);
+}
+
+#[test]
+#[ignore = "slow: those of one file in four are tried above"]
+fn no_false_claim_of_the_catalogue_is_zero_in_prime_fields() {
+    false_claims_of_one_file_in(1, 1000);
+}
+
+fn false_claims_of_one_file_in(step: usize, least: usize) {
     let mut found = Vec::new();
-    for path in files(Path::new(CASES)) {
+    for path in files(Path::new(CASES)).into_iter().step_by(step) {
         let case = Case::read(&path, &[]).1.expect("a case");
         let named = |(name, all)| (format!("{} :: {name}", path.display()), all);
         found.extend(answers_on_false_claims(&case).into_iter().map(named));
     }
-    assert!(found.len() > 1000, "{} false claims", found.len());
+    assert!(found.len() > least, "{} false claims", found.len());
     let mut refuted = 0;
     for (name, answers) in &found {
         let is_zero = |answer: &GroupOutcome| matches!(answer, GroupOutcome::Zero(_));
@@ -93,5 +103,5 @@ fn no_false_claim_is_zero_in_prime_fields() {
         refuted += usize::from(answers.iter().any(is_nonzero));
     }
     // The others contain symbols of transcendental functions, or fail for listed values only.
-    assert!(refuted > 900, "{refuted} of {} are seen not to be identities", found.len());
+    assert!(refuted * 10 > least * 9, "{refuted} of {} are seen not to be identities", found.len());
 }

@@ -2,7 +2,7 @@
 //!
 //! The files in `tests/defects/` are data: a group is a system with claims about it, each with the
 //! verdicts that are allowed. Every claim is a separate test, named by its subject, judged alone
-//! (or with its whole group, if the group says `together`) at two seeds, or at `seeds` of them.
+//! (or with its whole group, if the group says `together`) at one seed, or at `seeds` of them.
 
 use std::process::ExitCode;
 

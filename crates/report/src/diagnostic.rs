@@ -1,5 +1,6 @@
 //! Problems displayed at their place in the user's file, in the manner of rustc.
 
+use std::any::Any;
 use std::ops::Range;
 
 use annotate_snippets::renderer::DecorStyle;
@@ -20,6 +21,12 @@ pub fn of_case(path: &str, source: &str, error: &CaseError, colour: bool) -> Vec
 pub fn rendered(failures: &[FileFailure]) -> String {
     let texts: Vec<&str> = failures.iter().map(|failure| failure.rendered.as_str()).collect();
     texts.join("\n\n")
+}
+
+/// Message of a panic.
+pub fn panic_message(panic: &(dyn Any + Send)) -> &str {
+    let text = panic.downcast_ref::<String>().map(String::as_str);
+    text.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("no message")
 }
 
 fn of_mistake(path: &str, source: &str, mistake: &Mistake, colour: bool) -> FileFailure {

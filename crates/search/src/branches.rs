@@ -36,10 +36,19 @@ pub fn withdraw(
         }
         return Ok(());
     }
+    let has_no_values = counts + report.excluded.len() == 0 && are_counts_true(case, effort)?;
     report.counts.clear();
     report.multipliers.clear();
     report.excluded.clear();
     report.conditions.clear();
+    if has_no_values {
+        report.remark(
+            "no condition is stated: the formulas contain sines, cosines, exponentials or powers, which have \
+             no values modulo a prime"
+                .to_string(),
+        );
+        return Ok(());
+    }
     report.remark(
         "nothing is counted or excluded: the formulas contain a modulus, a root that depends on \
          others or has an irrational number under it, or a function such as atan; write a modulus or \

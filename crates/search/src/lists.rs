@@ -11,6 +11,10 @@ use liouville::case::Case;
 use liouville::mechanics::{Draw, ListedValues, Model, ParameterOrigin, SamplerSpec};
 use liouville::number::rational::Rational;
 
+/// Reason why a case with lists is not counted as a whole.
+pub const HAS_LISTS: &str =
+    "a parameter has a list of values: write a separate case for each value";
+
 /// Largest number of combinations of listed values that are searched one by one.
 const MOST: usize = 64;
 /// The same for searches along orbits.

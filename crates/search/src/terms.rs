@@ -6,7 +6,7 @@ use num_traits::{Signed, Zero};
 
 use liouville::case::Case;
 use liouville::formula::{Formula, FormulaError, FormulaResult, Type};
-use liouville::graph::{Expr, Fault, Graph, record};
+use liouville::graph::{Expr, Fault, Graph, Step, record};
 use liouville::mechanics::calculus::DualPoint;
 use liouville::mechanics::{Phase, Vocabulary};
 use liouville::number::rational::Rational;
@@ -29,6 +29,18 @@ pub fn recorded<R>(
         let (parameters, state) = inputs.split_at(model.free_components());
         make(&DualPoint::new(Phase::new(model, parameters, state)))
     })
+}
+
+/// Steps of a record that depend on the state, whose inputs follow those of the parameters.
+pub fn varying(graph: &Graph, parameters: usize) -> Vec<bool> {
+    let mut varies = vec![false; graph.len()];
+    for (place, step) in graph.steps().enumerate() {
+        varies[place] = match step {
+            Step::Input(input) => input >= parameters,
+            _ => step.arguments().any(|argument| varies[argument]),
+        };
+    }
+    varies
 }
 
 /// The number 1 as a formula.

@@ -5,6 +5,7 @@ use std::path::Path;
 use clap::FromArgMatches;
 use liouville::part::Part;
 
+use super::bodies::BodiesArgs;
 use super::eval::{self, Opened};
 use super::explore::motion::MotionArgs;
 use super::explore::report::ReportArgs;
@@ -65,6 +66,12 @@ impl Given<'_> {
     fn put(&self, subject: &mut MotionArgs, share: &mut Share, arguments: &[String]) {
         subject.case = self.name.into();
         subject.settings = self.settings.to_vec();
+        share.arguments = arguments.to_vec();
+    }
+
+    /// Puts the table in place of the file of bodies, with all arguments of the command.
+    fn put_table(&self, bodies: &mut BodiesArgs, share: &mut Share, arguments: &[String]) {
+        bodies.text = self.table.map(str::to_string);
         share.arguments = arguments.to_vec();
     }
 
@@ -137,8 +144,7 @@ impl AnyJob {
     ) -> Result<Self, String> {
         options.paths = vec![given.name.into()];
         options.settings = given.settings.to_vec();
-        options.share.arguments = arguments.to_vec();
-        options.bodies.text = given.table.map(str::to_string);
+        given.put_table(&mut options.bodies, &mut options.share, arguments);
         options.out = out.map(Path::to_path_buf);
         Ok(Self::Bodies(Box::new(BodiesJob::of_check(&options, given.opened()?)?)))
     }
@@ -152,8 +158,7 @@ impl AnyJob {
     ) -> Result<Self, String> {
         options.case = given.name.into();
         options.settings = given.settings.to_vec();
-        options.share.arguments = arguments.to_vec();
-        options.bodies.text = given.table.map(str::to_string);
+        given.put_table(&mut options.bodies, &mut options.share, arguments);
         options.out = out.map(Path::to_path_buf);
         Ok(Self::Bodies(Box::new(BodiesJob::of_report(&options, given.opened()?)?)))
     }

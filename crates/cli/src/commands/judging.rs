@@ -302,9 +302,7 @@ pub(super) fn stated(case: &Case, motions: bool) -> Vec<ClaimReport> {
 
 /// Failure of a file on which the program itself failed.
 fn fault(path: &Path, panic: &(dyn Any + Send)) -> FileFailure {
-    let text = panic.downcast_ref::<String>().map(String::as_str);
-    let text = text.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("no message");
-    let message = format!("the program failed on this file: {text}");
+    let message = format!("the program failed on this file: {}", diagnostic::panic_message(panic));
     plain(path, &message, "this is a fault of the program: please report it with the file")
 }
 

@@ -42,8 +42,12 @@ pub fn section(surface: Option<&str>) -> Text {
 
 /// State at which motions start: its components but those of some names, or nothing if they are many.
 pub fn start(case: &Case, state: &[Rational], without: &[&str]) -> Vec<Text> {
-    let names = (0..state.len()).map(|k| case.model.component_name(k));
-    let shown = names.zip(state).filter(|(name, _)| !without.contains(&name.as_str()));
+    let shown = case
+        .model
+        .state_names()
+        .into_iter()
+        .zip(state)
+        .filter(|(name, _)| !without.contains(&name.as_str()));
     let all: Vec<Text> =
         shown.map(|(name, value)| equation(&name, &value.to_f64().0.to_string())).collect();
     if all.len() > MOST_SHOWN { Vec::new() } else { all }

@@ -27,7 +27,17 @@ fn all_agree(path: &str, wanted: impl Fn(&MotionKind) -> bool) {
 
 #[test]
 fn fixed_points_that_are_soon_back() {
-    for figure in ["3", "7", "8", "10", "14", "A1-a", "A1-d", "A1-h"] {
+    fixed_points(&["3", "8", "14", "A1-d"]);
+}
+
+#[test]
+#[ignore = "slow: as those of four figures above"]
+fn fixed_points_of_more_figures_are_soon_back() {
+    fixed_points(&["7", "10", "A1-a", "A1-h"]);
+}
+
+fn fixed_points(figures: &[&str]) {
+    for figure in figures {
         let is_point = |claim: &MotionKind| matches!(claim, MotionKind::PeriodicPoint(_));
         all_agree(&format!("figures/fig-{figure}.toml"), is_point);
     }

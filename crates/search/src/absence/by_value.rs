@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use super::super::lists::{ListedCase, combinations, first_values};
+use super::super::lists::{HAS_LISTS, ListedCase, combinations, first_values};
 use super::super::local::Coordinates;
 use super::super::{Effort, SearchError};
 use super::known::ProvedIntegrals;
@@ -29,9 +29,8 @@ pub fn judged(
     if is_of_velocities || first_values(case).is_none() {
         return Ok(None);
     }
-    let reason = "a parameter has a list of values: write a separate case for each value";
     let all = combinations(case).unwrap_or_default();
-    let mut open = (all.len() > MOST || all.is_empty()).then(|| reason.to_string());
+    let mut open = (all.len() > MOST || all.is_empty()).then(|| HAS_LISTS.to_string());
     let mut theorems: Vec<(String, String)> = Vec::new();
     let share = MOST_TIME / all.len().clamp(1, MOST) as u32;
     for ListedCase { case: fixed, values } in all.iter().take(MOST) {
@@ -51,7 +50,7 @@ pub fn judged(
         return Ok(Some(AbsenceOutcome::Open(reason)));
     }
     let Some((theorem, counted)) = theorems.first().cloned() else {
-        return Ok(Some(AbsenceOutcome::Open(reason.to_string())));
+        return Ok(Some(AbsenceOutcome::Open(HAS_LISTS.to_string())));
     };
     let is_same = theorems.iter().all(|(other, _)| *other == theorem);
     let each = theorems.into_iter().zip(&all);

@@ -10,6 +10,7 @@ use super::super::ansatz::recording::Recording;
 use super::super::ansatz::subspace::complement;
 use super::super::ansatz::system::{Column, LinearSystem, PrimePoint};
 use super::super::ask::judged_alone;
+use super::super::lists::HAS_LISTS;
 use super::super::multipliers::WEIGHTS;
 use super::super::orbit::monomials::count;
 use super::super::products::{DEGREE_PRIMES, Generators};
@@ -37,8 +38,7 @@ pub fn judge(
 ) -> Result<Option<AbsenceOutcome>, SearchError> {
     let open = |reason: String| Ok(Some(AbsenceOutcome::Open(reason)));
     if has_lists(asked.case) {
-        let reason = "a parameter has a list of values: write a separate case for each value";
-        return open(reason.to_string());
+        return open(HAS_LISTS.to_string());
     }
     if contains_integrals(asked.case)? {
         return open("the field contains ∫".to_string());

@@ -263,19 +263,24 @@ impl LinearSystem {
     /// at the other free ones and at all columns after its own; `None` if too few states have
     /// values.
     pub fn null_space(&self, at: &PrimePoint, columns: &[usize]) -> Found {
-        let (m, columns) = (&at.modulus, self.sparse(&at.modulus, columns));
-        self.relations(at, columns.len(), &mut |values| {
-            self.row(m, values, &columns, &|column, powers| powers.derivative(m, column))
-        })
+        self.relations_of(at, columns, |column, powers| powers.derivative(&at.modulus, column))
     }
 
     /// A basis of the relations between the functions themselves, as
     /// [`null_space`](Self::null_space) has it between their derivatives.
     pub fn dependences(&self, at: &PrimePoint, columns: &[usize]) -> Found {
+        self.relations_of(at, columns, |column, powers| powers.value(&at.modulus, column))
+    }
+
+    /// A basis of the relations between the entries of some columns.
+    fn relations_of(
+        &self,
+        at: &PrimePoint,
+        columns: &[usize],
+        entry: impl Fn(&SparseColumn, &VariablePowers<'_>) -> u64,
+    ) -> Found {
         let (m, columns) = (&at.modulus, self.sparse(&at.modulus, columns));
-        self.relations(at, columns.len(), &mut |values| {
-            self.row(m, values, &columns, &|column, powers| powers.value(m, column))
-        })
+        self.relations(at, columns.len(), &mut |values| self.row(m, values, &columns, &entry))
     }
 
     /// Selects the columns whose functions do not depend on earlier ones; `None` if too few states

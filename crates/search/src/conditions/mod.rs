@@ -126,7 +126,13 @@ pub fn conditions(
             let named = case.claims.iter().find(|claim| &claim.name == name);
             let claim = named.ok_or_else(|| SearchError::NoClaim(name.clone()))?;
             progress(&format!("conditions for {name}"));
-            by_values(case, Some(claim), effort, report)
+            let told = |report: &SearchReport| report.conditions.len() + report.remarks.len();
+            let before = told(report);
+            by_values(case, Some(claim), effort, report)?;
+            if told(report) == before {
+                report.remark(format!("{name}: no condition is needed"));
+            }
+            Ok(())
         }
         ConditionTarget::Existence => {
             if case.model.system.has_criterion() {

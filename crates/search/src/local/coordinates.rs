@@ -1,8 +1,9 @@
 //! Local coordinates of the level, split into positions and velocities.
 
-use num_dual::{Dual, DualNum};
+use num_dual::Dual;
 
 use super::mechanical::Mechanical;
+use super::spheres::projected;
 use super::unwound::rational;
 use crate::SearchError;
 use liouville::case::Case;
@@ -108,25 +109,15 @@ impl Coordinates {
 
     /// Returns the state at a point of these coordinates.
     pub fn state<T: Scalar>(&self, model: &Model, parameters: &[T], coordinates: &[T]) -> Vec<T> {
-        let (one, two) = (T::one(), T::from(2.0));
-        let normal = |u: T, v: T| {
-            let scale = (one + u * u + v * v).recip();
-            [two * u * scale, two * v * scale, (one - u * u - v * v) * scale]
-        };
         match (&self.kind, coordinates) {
             (LocalKind::Rolling, [u, v, w1, w2]) => {
-                let along = |du: T, dv: T| {
-                    let (u, v) = (Dual::new(*u, du), Dual::new(*v, dv));
-                    let (one, two) = (Dual::from_re(one), Dual::from_re(two));
-                    let scale = (one + u * u + v * v).recip();
-                    [two * u * scale, two * v * scale, (one - u * u - v * v) * scale]
-                };
-                let (a, b) = (along(one, T::zero()), along(T::zero(), one));
+                let along = |du: T, dv: T| projected(Dual::new(*u, du), Dual::new(*v, dv));
+                let (a, b) = (along(T::one(), T::zero()), along(T::zero(), T::one()));
                 let omega = (0..3).map(|k| *w1 * a[k].eps + *w2 * b[k].eps);
-                omega.chain(normal(*u, *v)).collect()
+                omega.chain(projected(*u, *v)).collect()
             }
             (LocalKind::Sphere, [u, v, momentum @ ..]) => {
-                momentum.iter().copied().chain(normal(*u, *v)).collect()
+                momentum.iter().copied().chain(projected(*u, *v)).collect()
             }
             (LocalKind::Components(places), _) => {
                 let mut state = vec![T::zero(); places.len()];

@@ -99,7 +99,7 @@ impl UnitVectors {
 }
 
 /// The unit vector over a point of the plane.
-fn projected<T: Scalar>(u: T, v: T) -> [T; 3] {
+pub(super) fn projected<T: Scalar>(u: T, v: T) -> [T; 3] {
     let (one, two) = (T::one(), T::from(2.0));
     let scale = (one + u * u + v * v).recip();
     [two * u * scale, two * v * scale, (one - u * u - v * v) * scale]

@@ -124,6 +124,18 @@ pub fn weighted_integral(
     Ok(report.found.len() > before)
 }
 
+/// Adds a function of constant rate to the report if it is proved.
+pub fn rate(
+    setting: &OrbitSetting<'_>,
+    function: &Formula,
+    rate: &Formula,
+    report: &mut SearchReport,
+) -> Result<bool, SearchError> {
+    let statement = OrbitStatement::Rate { function: function.clone(), rate: rate.clone() };
+    let with = Some(Given::Rate(rate.clone()));
+    other(setting, FoundKind::ConstantRate, function, &statement, with, report)
+}
+
 /// Adds another find to the report if it is proved.
 pub fn other(
     setting: &OrbitSetting<'_>,

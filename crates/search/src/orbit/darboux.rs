@@ -8,7 +8,6 @@ use liouville::number::prime::Modulus;
 use liouville::number::rational::Rational;
 use liouville::proof::reconstruct;
 
-use super::super::ansatz::coefficients::Ratio;
 use super::super::ansatz::monomials::power_product;
 use super::super::ansatz::system::PrimePoint;
 use super::super::echelon::Echelon;
@@ -268,10 +267,7 @@ impl DarbouxSearch<'_, '_> {
         };
         let images = Images { setting: self.setting, width: monomials.len(), is_split: true, make };
         let Some(coefficients) = images::coefficients(&images)? else { return Ok(None) };
-        let functions: Vec<Ratio> = monomials
-            .iter()
-            .map(|own| power_product(&self.setting.terms, own).map(Ratio::of))
-            .collect::<Result<_, _>>()?;
+        let functions = self.setting.functions(&monomials)?;
         Ok(coefficients.sum(&(0..monomials.len()).collect::<Vec<_>>(), &functions)?)
     }
 

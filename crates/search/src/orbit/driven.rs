@@ -2,7 +2,7 @@
 
 use super::super::ansatz::system::PrimePoint;
 use super::super::terms::{TermSum, is_one};
-use super::super::{FoundKind, Given, SearchError, SearchReport};
+use super::super::{SearchError, SearchReport};
 use super::claims::{self, OrbitStatement};
 use super::exponents::{ExponentSystem, RateTerm};
 use super::factor::RatedPolynomial;
@@ -63,17 +63,7 @@ impl ExponentSystem<'_, '_> {
                 if self.is_time_by_rate(&at, &function)? {
                     break;
                 }
-                let statement =
-                    OrbitStatement::Rate { function: function.clone(), rate: rate.clone() };
-                let (setting, with) = (self.setting, Some(Given::Rate(rate.clone())));
-                if claims::other(
-                    setting,
-                    FoundKind::ConstantRate,
-                    &function,
-                    &statement,
-                    with,
-                    report,
-                )? {
+                if claims::rate(self.setting, &function, &rate, report)? {
                     told += 1;
                     break;
                 }

@@ -11,9 +11,9 @@ use super::super::ansatz::system::PrimePoint;
 use super::super::budget::Budget;
 use super::super::echelon::{Echelon, nonzero};
 use super::super::terms::recorded;
-use super::super::{FoundKind, Given, SearchError, SearchReport};
+use super::super::{FoundKind, SearchError, SearchReport};
 use super::angle::{AngleForm, ConjugatePair};
-use super::claims::{self, OrbitStatement};
+use super::claims;
 use super::factor::RatedPolynomial;
 use super::images::{self, Images};
 use super::known::IndependentIntegrals;
@@ -305,16 +305,7 @@ impl<'s, 'c> ExponentSystem<'s, 'c> {
         let rate = vector.minus(support.len() - 1)?;
         for style in self.styles(support) {
             let Some(function) = self.logarithm(support, &vector, style)? else { continue };
-            let statement = OrbitStatement::Rate { function: function.clone(), rate: rate.clone() };
-            let with = Some(Given::Rate(rate.clone()));
-            if claims::other(
-                self.setting,
-                FoundKind::ConstantRate,
-                &function,
-                &statement,
-                with,
-                report,
-            )? {
+            if claims::rate(self.setting, &function, &rate, report)? {
                 break;
             }
         }

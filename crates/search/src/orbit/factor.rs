@@ -2,12 +2,10 @@
 
 use num_dual::Dual;
 
-use liouville::formula::{Formula, FormulaError, Type};
+use liouville::formula::{Formula, Type};
 use liouville::graph::{Expr, Tape};
 
 use super::super::SearchError;
-use super::super::ansatz::coefficients::Ratio;
-use super::super::ansatz::monomials::power_product;
 use super::super::ansatz::system::PrimePoint;
 use super::super::echelon::Echelon;
 use super::super::terms::{is_one, recorded};
@@ -76,10 +74,7 @@ impl RatedPolynomial {
         };
         let images = Images { setting, width: all.len(), is_split: false, make };
         let Some(coefficients) = images::coefficients(&images)? else { return Ok(None) };
-        let functions: Vec<Ratio> = all
-            .iter()
-            .map(|a| power_product(&setting.terms, a).map(Ratio::of))
-            .collect::<Result<_, FormulaError>>()?;
+        let functions = setting.functions(&all)?;
         let above = coefficients.sum(&(0..all.len()).collect::<Vec<_>>(), &functions)?;
         let above = above.unwrap_or_else(|| Formula::number(0));
         let below = coefficients.formula(all.len())?;

@@ -4,8 +4,7 @@ use liouville::formula::{Formula, FormulaResult};
 use num_bigint::BigInt;
 use num_integer::Integer;
 
-use super::super::ansatz::coefficients::{Polynomial, PrimitiveVector, Ratio};
-use super::super::ansatz::monomials::power_product;
+use super::super::ansatz::coefficients::{Polynomial, PrimitiveVector};
 use super::super::terms::is_one;
 use super::super::{SearchError, SearchReport};
 use super::claims;
@@ -34,10 +33,7 @@ impl RationalSearch<'_, '_> {
         let (above, below) = coefficients.polynomials.split_at_mut(fraction.above.len());
         [above, &mut below[..fraction.below.len()]].into_iter().for_each(reduce_whole);
         let written = |own: &[Vec<u32>], start: usize| -> FormulaResult {
-            let functions: Vec<Ratio> = own
-                .iter()
-                .map(|a| power_product(&self.setting.terms, a).map(Ratio::of))
-                .collect::<Result<_, _>>()?;
+            let functions = self.setting.functions(own)?;
             let places: Vec<usize> = (start..start + own.len()).collect();
             let sum = coefficients.sum(&places, &functions)?;
             Ok(sum.unwrap_or_else(|| Formula::number(0)))

@@ -8,6 +8,7 @@ use liouville::formula::Formula;
 
 use super::super::continued::named;
 use super::super::hypotheses::stated;
+use super::super::lists::HAS_LISTS;
 use super::super::origin::TheoremOrigin;
 use super::super::{Effort, Excluded, SearchError, SearchReport};
 use super::adjoin::{self, Extension};
@@ -173,7 +174,7 @@ pub fn compared(
         Err(reason) => return Ok(Err(reason)),
     };
     if setting.has_lists() || !setting.flow.is_rational_in_state {
-        return none("a parameter has a list of values: write a separate case for each value");
+        return none(HAS_LISTS);
     }
     let variables = class.variables();
     let mut all = Vec::new();

@@ -11,8 +11,7 @@ use std::time::Duration;
 
 use rayon::prelude::*;
 
-use super::super::ansatz::coefficients::{NullVector, Ratio};
-use super::super::ansatz::monomials::power_product;
+use super::super::ansatz::coefficients::NullVector;
 use super::super::ansatz::note_unwritten;
 use super::super::ansatz::system::{Column, LinearSystem, PrimePoint};
 use super::super::room::Room;
@@ -190,10 +189,9 @@ impl<'s, 'c> GradedSearch<'s, 'c> {
                 unwritten = unwritten.or(Some((support.len(), gradient)));
                 continue;
             };
-            let functions: Result<Vec<Ratio>, _> =
-                own.iter().map(|own| power_product(&setting.terms, own).map(Ratio::of)).collect();
+            let functions = setting.functions(&own)?;
             let places: Vec<usize> = (0..support.len()).collect();
-            let Some(formula) = coefficients.sum(&places, &functions?)? else { continue };
+            let Some(formula) = coefficients.sum(&places, &functions)? else { continue };
             if claims::integral(setting, &formula, report)? {
                 known.add(formula, Some(degree), variables);
                 gradients = own_gradients;

@@ -7,7 +7,7 @@ use liouville::number::{BinaryOperation, UnaryFunction};
 use super::super::ansatz::system::PrimePoint;
 use super::super::ask::given;
 use super::super::products::degree_in_state;
-use super::super::terms::recorded;
+use super::super::terms::{recorded, varying};
 use super::super::{FoundKind, SearchError, SearchReport};
 use super::claims::{self, OrbitStatement};
 use super::setting::{OrbitSetting, PrimePhasePoint, run};
@@ -171,12 +171,8 @@ fn is_algebraic(case: &Case, formula: &Formula) -> bool {
     let Ok((graph, value)) = recorded(case, |jet| jet.phase.scalar(formula)) else { return true };
     let parameters = case.model.free_components();
     let reached = graph.reached([value]);
-    let mut varies = vec![false; graph.len()];
+    let varies = varying(&graph, parameters);
     for (place, step) in graph.steps().enumerate() {
-        varies[place] = match step {
-            Step::Input(input) => input >= parameters,
-            _ => step.arguments().any(|argument| varies[argument]),
-        };
         let is_other = match step {
             Step::Unary(function, _) => !matches!(
                 function,

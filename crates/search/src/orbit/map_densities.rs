@@ -6,12 +6,10 @@
 //! is ±1/det DΦ. Either way the equation is linear in the coefficients of P.
 
 use liouville::claim::Claim;
-use liouville::formula::{Formula, FormulaError};
+use liouville::formula::Formula;
 use liouville::graph::Tape;
 use liouville::verdict::{ClaimReport, Verdict};
 
-use super::super::ansatz::coefficients::Ratio;
-use super::super::ansatz::monomials::power_product;
 use super::super::ansatz::note_unwritten_density;
 use super::super::ansatz::system::PrimePoint;
 use super::super::ask::judged_alone;
@@ -137,10 +135,7 @@ fn density(
     let coefficients = images::coefficients(&images)?;
     setting.effort.halt.check()?;
     let Some(coefficients) = coefficients else { return Ok(Some(false)) };
-    let functions: Vec<Ratio> = all[..=last]
-        .iter()
-        .map(|own| power_product(&setting.terms, own).map(Ratio::of))
-        .collect::<Result<_, FormulaError>>()?;
+    let functions = setting.functions(&all[..=last])?;
     let places: Vec<usize> = (0..=last).collect();
     let Some(polynomial) = coefficients.sum(&places, &functions)? else { return Ok(Some(false)) };
     let density: Formula = match (last, form.is_inverse) {

@@ -4,11 +4,9 @@
 //! vanishes, with the value c of the integral there. So Q and P are read off the relations between the
 //! monomials and their multiples by w, in the lowest degree in which there is one alone.
 
-use liouville::formula::{Formula, FormulaError};
+use liouville::formula::Formula;
 use liouville::graph::Tape;
 
-use super::super::ansatz::coefficients::Ratio;
-use super::super::ansatz::monomials::power_product;
 use super::super::ansatz::system::PrimePoint;
 use super::super::echelon::Echelon;
 use super::super::{FoundKind, SearchError, SearchReport};
@@ -129,10 +127,7 @@ impl FractionSearch<'_, '_> {
             };
             let images = Images { setting, width: monomials.len(), is_split: false, make };
             let Some(coefficients) = images::coefficients(&images)? else { return Ok(None) };
-            let functions: Vec<Ratio> = monomials
-                .iter()
-                .map(|own| power_product(&setting.terms, own).map(Ratio::of))
-                .collect::<Result<_, FormulaError>>()?;
+            let functions = setting.functions(monomials)?;
             Ok(coefficients.sum(&(0..monomials.len()).collect::<Vec<_>>(), &functions)?)
         };
         let Some(upper) = part(above, 0)? else { return Ok(false) };

@@ -2,12 +2,10 @@
 //!
 //! One row for each random point modulo a prime holds the changes of all m, or m ρ, along the map.
 
-use liouville::formula::{Formula, FormulaError};
+use liouville::formula::Formula;
 use liouville::graph::Tape;
 
 use super::super::SearchError;
-use super::super::ansatz::coefficients::Ratio;
-use super::super::ansatz::monomials::power_product;
 use super::super::ansatz::system::PrimePoint;
 use super::super::echelon::Echelon;
 use super::images::{self, Images};
@@ -72,10 +70,7 @@ impl MapRows<'_, '_> {
         let (setting, width) = (self.setting, monomials.len());
         let images = Images { setting, width, is_split: false, make };
         let Some(coefficients) = images::coefficients(&images)? else { return Ok(None) };
-        let functions: Vec<Ratio> = monomials
-            .iter()
-            .map(|own| power_product(&setting.terms, own).map(Ratio::of))
-            .collect::<Result<_, FormulaError>>()?;
+        let functions = setting.functions(monomials)?;
         let places: Vec<usize> = (0..width).collect();
         Ok(coefficients.sum(&places, &functions)?)
     }

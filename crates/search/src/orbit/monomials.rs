@@ -2,10 +2,24 @@
 
 use rustc_hash::FxHashMap;
 
+use liouville::formula::FormulaError;
 use liouville::number::prime::Modulus;
 
+use super::super::ansatz::coefficients::Ratio;
+use super::super::ansatz::monomials::power_product;
 use super::super::series::exponents;
 use super::super::{Halt, SearchError};
+use super::setting::OrbitSetting;
+
+impl OrbitSetting<'_> {
+    /// Monomials in the variables as formulas.
+    pub fn functions<'m>(
+        &self,
+        monomials: impl IntoIterator<Item = &'m Vec<u32>>,
+    ) -> Result<Vec<Ratio>, FormulaError> {
+        monomials.into_iter().map(|own| power_product(&self.terms, own).map(Ratio::of)).collect()
+    }
+}
 
 /// Exponents of all monomials up to a degree in some of the variables, low degrees first; the
 /// constant is the first.

@@ -12,6 +12,7 @@ use liouville::mechanics::{Draw, Phase};
 use liouville::proof::{PolynomialBounds, polynomial_bounds, statement_seed};
 use liouville::verdict::Options;
 
+use super::super::lists::HAS_LISTS;
 use super::super::{Effort, FoundKind, SearchError, SearchReport};
 use super::claims::{self, OrbitStatement};
 use super::factor::RatedPolynomial;
@@ -114,8 +115,7 @@ impl Sizes {
             return Ok(Err("the case is not a field without a level set".to_string()));
         }
         if !draws.iter().all(is_simple) {
-            let reason = "a parameter has a list of values: write a separate case for each value";
-            return Ok(Err(reason.to_string()));
+            return Ok(Err(HAS_LISTS.to_string()));
         }
         let count = draws.len();
         let (graph, (rates, values)) = record(count + dimension, |inputs| {

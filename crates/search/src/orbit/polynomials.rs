@@ -3,8 +3,7 @@
 //! A row is one random state modulo a prime, a column the rate of one monomial. Monomials whose
 //! values depend on those of others on the level are left out.
 
-use super::super::ansatz::coefficients::{NullVector, Ratio};
-use super::super::ansatz::monomials::power_product;
+use super::super::ansatz::coefficients::NullVector;
 use super::super::ansatz::note_unwritten;
 use super::super::ansatz::subspace::complement;
 use super::super::ansatz::system::{Column, LinearSystem};
@@ -84,11 +83,8 @@ pub fn polynomials(
             is_unwritten = true;
             continue;
         };
-        let functions: Result<Vec<Ratio>, _> = support
-            .iter()
-            .map(|k| power_product(&setting.terms, &all[*k]).map(Ratio::of))
-            .collect();
-        let sum = coefficients.sum(&(0..support.len()).collect::<Vec<_>>(), &functions?)?;
+        let functions = setting.functions(support.iter().map(|k| &all[*k]))?;
+        let sum = coefficients.sum(&(0..support.len()).collect::<Vec<_>>(), &functions)?;
         let Some(formula) = sum else { continue };
         if claims::integral(setting, &formula, report)? {
             known.add(formula, Some(degree), variables);

@@ -8,7 +8,6 @@ use liouville::formula::Formula;
 use liouville::mechanics::{BracketBlock, System};
 
 use super::super::ansatz::coefficients::{NullVector, Ratio};
-use super::super::ansatz::monomials::power_product;
 use super::super::ansatz::note_unwritten;
 use super::super::ansatz::subspace::complement;
 use super::super::ansatz::system::{Column, LinearSystem};
@@ -182,10 +181,7 @@ impl CoordinateSearch<'_, '_> {
                 note_unwritten(setting.case, &what, report);
                 continue;
             };
-            let functions: Vec<Ratio> = support
-                .iter()
-                .map(|k| power_product(&setting.terms, places[*k].1).map(Ratio::of))
-                .collect::<Result<_, _>>()?;
+            let functions = setting.functions(support.iter().map(|k| places[*k].1))?;
             let part = |factor: usize| {
                 let own = (0..support.len()).filter(|k| places[support[*k]].0 == factor);
                 let own: Vec<usize> = own.collect();

@@ -5,12 +5,11 @@
 //! polynomials with roots are not. Each parameter has a range of its own, so that the order of the
 //! fractions is the same for all values: x − a y comes before x + a y.
 
-use liouville::formula::{Formula, FormulaError};
+use liouville::formula::Formula;
 use liouville::number::rational::Rational;
 use liouville::proof::reconstruct;
 
-use super::super::ansatz::coefficients::{Ratio, Vectors};
-use super::super::ansatz::monomials::power_product;
+use super::super::ansatz::coefficients::Vectors;
 use super::super::ansatz::system::PrimePoint;
 use super::super::{Halt, SearchError};
 use super::darboux::{DarbouxSearch, Terms};
@@ -38,10 +37,7 @@ impl DarbouxSearch<'_, '_> {
         };
         let Some(at) = setting.small(0, 0) else { return Ok(Vec::new()) };
         let known = found(&at)?.len();
-        let functions: Vec<Ratio> = support
-            .iter()
-            .map(|own| power_product(&setting.terms, own).map(Ratio::of))
-            .collect::<Result<_, FormulaError>>()?;
+        let functions = setting.functions(support)?;
         let mut made = Vec::new();
         for place in 0..known {
             let make = |at: &PrimePoint| {

@@ -10,7 +10,7 @@ use liouville::number::prime::Modulus;
 use liouville::number::rational::Rational;
 use liouville::number::{BinaryOperation, UnaryFunction};
 
-use super::super::terms::recorded;
+use super::super::terms::{recorded, varying};
 use super::super::{Halt, SearchError};
 
 /// One operation of a field; arguments are places of earlier operations.
@@ -105,14 +105,10 @@ impl Flow {
         parameters: usize,
     ) -> Option<Self> {
         let (mut is_rational, mut is_rational_in_state) = (true, true);
-        let mut varies = vec![false; graph.len()];
+        let varies = varying(graph, parameters);
         let mut at = vec![0; graph.len()];
         let (mut steps, mut steps_vary) = (Vec::new(), Vec::new());
         for (place, step) in graph.steps_at(reached) {
-            varies[place] = match step {
-                Step::Input(input) => input >= parameters,
-                _ => step.arguments().any(|argument| varies[argument]),
-            };
             let own = match step {
                 Step::Constant(value) => Rule::Constant(value.clone()),
                 Step::Input(input) if input < parameters => Rule::Parameter(input),

@@ -14,6 +14,7 @@ use super::drawn_states::states;
 use super::involutions::{MapCandidate, signed};
 use super::question::FixedSet;
 use super::sign_changes::sign_changes;
+use super::signed_permutation::SignedPermutation;
 use liouville::case::Case;
 use liouville::claim::{Reversor, Statement, Symmetry, clock};
 use liouville::formula::{Formula, Type};
@@ -45,11 +46,8 @@ impl Exchange {
         self.places.iter().enumerate().any(|(i, place)| i != *place)
     }
 
-    fn is_involution(&self) -> bool {
-        let back = |(i, place): (usize, &usize)| {
-            self.places[*place] == i && self.signs[i] * self.signs[*place] == 1
-        };
-        self.places.iter().enumerate().all(back)
+    fn map(&self) -> SignedPermutation<'_> {
+        SignedPermutation { places: &self.places, signs: &self.signs }
     }
 
     /// The map `self` after `other`.
@@ -68,23 +66,6 @@ impl Exchange {
     fn size(&self) -> (usize, usize) {
         let moved = self.places.iter().enumerate().filter(|(i, place)| i != *place).count();
         (moved, self.signs.iter().filter(|sign| **sign < 0).count())
-    }
-
-    /// Dimension of the fixed space: one for each cycle whose signs multiply to 1.
-    fn fixed_space(&self) -> usize {
-        let mut seen = vec![false; self.places.len()];
-        let mut dimension = 0;
-        for start in 0..self.places.len() {
-            let (mut at, mut product) = (start, 1);
-            while !std::mem::replace(&mut seen[at], true) {
-                product *= self.signs[at];
-                at = self.places[at];
-                if at == start {
-                    dimension += usize::from(product == 1);
-                }
-            }
-        }
-        dimension
     }
 }
 
@@ -144,7 +125,7 @@ fn candidates(case: &Case) -> Vec<Exchange> {
     let mut all = Vec::new();
     let mut both = |places: &[usize], signs: Vec<i8>| {
         let own = Exchange { places: places.to_vec(), signs, reverses: false };
-        if own.is_involution() {
+        if own.map().is_involution() {
             all.push(Exchange { reverses: true, ..own.clone() });
         }
         all.push(own);
@@ -276,7 +257,7 @@ fn candidate(case: &Case, own: &Exchange) -> Option<MapCandidate> {
     let key = if own.reverses { Reversor::NAME } else { Symmetry::NAME };
     // On a level the dimension depends on the intersection with the fixed space.
     let is_known = own.reverses && model.level.is_empty();
-    let fixed_set = is_known.then(|| FixedSet { dimension: Some(own.fixed_space()) });
+    let fixed_set = is_known.then(|| FixedSet { dimension: Some(own.map().fixed_space(1)) });
     Some(MapCandidate { name: format!("{key} {}", changed.join(", ")), key, images, fixed_set })
 }
 
@@ -337,7 +318,8 @@ mod tests {
     fn fixed_spaces_have_a_dimension_for_each_cycle() {
         let own = |places: &[usize], signs: &[i8]| {
             Exchange { places: places.to_vec(), signs: signs.to_vec(), reverses: true }
-                .fixed_space()
+                .map()
+                .fixed_space(1)
         };
         assert_eq!(own(&[1, 0, 2], &[1, 1, -1]), 1, "x = y, z = 0");
         assert_eq!(own(&[1, 0, 2], &[-1, -1, 1]), 2, "x = −y");

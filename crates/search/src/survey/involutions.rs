@@ -10,6 +10,7 @@ use super::fixed_sets::{distinct_on_level, on_level};
 use super::mirrors::Mirror;
 use super::question::{FixedSet, SurveyQuestion, TestedClaim};
 use super::sign_changes::sign_changes;
+use super::signed_permutation::SignedPermutation;
 use liouville::case::Case;
 use liouville::claim::{Claim, Reversor, Statement, Symmetry};
 use liouville::formula::{Formula, FormulaResult};
@@ -238,6 +239,10 @@ impl Orthogonal for FrameMap {
 }
 
 impl Turn {
+    fn map(&self) -> SignedPermutation<'_> {
+        SignedPermutation { places: &self.places, signs: &self.signs }
+    }
+
     /// Lists all 48, those without exchanges first.
     fn all() -> Vec<Self> {
         let orders = [[0, 1, 2], [1, 0, 2], [2, 1, 0], [0, 2, 1], [1, 2, 0], [2, 0, 1]];
@@ -295,27 +300,11 @@ impl Orthogonal for Turn {
     }
 
     fn is_involution(&self) -> bool {
-        (0..3).all(|i| {
-            let j = self.places[i];
-            self.places[j] == i && self.signs[i] * self.signs[j] == 1
-        })
+        self.map().is_involution()
     }
 
-    /// One dimension for each cycle whose signs multiply to 1.
     fn fixed_space(&self, sign: i8) -> usize {
-        let mut seen = [false; 3];
-        let mut dimension = 0;
-        for start in 0..3 {
-            let (mut at, mut product) = (start, 1);
-            while !std::mem::replace(&mut seen[at], true) {
-                product *= sign * self.signs[at];
-                at = self.places[at];
-                if at == start {
-                    dimension += usize::from(product == 1);
-                }
-            }
-        }
-        dimension
+        self.map().fixed_space(sign)
     }
 }
 

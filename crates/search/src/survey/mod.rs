@@ -33,6 +33,7 @@ mod mirrors;
 mod question;
 mod shown;
 mod sign_changes;
+mod signed_permutation;
 mod sorted;
 mod sphere;
 mod system_line;

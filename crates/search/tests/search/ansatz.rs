@@ -16,7 +16,13 @@ use liouville::case::{Case, Setting};
 use liouville::verdict::Verdict;
 use liouville_search::{Effort, FoundKind, Given, Halt, SearchReport, search};
 
+/// Counts and ansätze alone: searches along orbits have tests of their own.
 fn effort(degree: u32) -> Effort {
+    Effort { degree, by_class: false, by_factors: false, ..Effort::default() }
+}
+
+/// Searches along orbits as well.
+fn whole(degree: u32) -> Effort {
     Effort { degree, ..Effort::default() }
 }
 
@@ -43,22 +49,32 @@ fn case(text: &str) -> Case {
 
 #[test]
 fn integrals_of_the_papers_are_found_and_proved() {
-    let cases = [
-        ("plane/balanced-ball", "F2"),
-        ("plane/unbalanced-ball", "F2"),
-        ("plane/ellipsoid-mb-mu", "F2"),
-        ("plane/balanced-ball-gyrostat", "F2"),
-        ("plane/balanced-ball-brun", "F2"),
-        ("plane/revolution", "F2"),
-        ("sphere/borisov-mamaev-ball", "F2"),
-        ("sphere/borisov-mamaev-ball-potential", "F2"),
-        ("sphere/symmetric-ball", "F2"),
-        ("flat-base/base-through-centre", "F2"),
-        ("flat-base/symmetric-base", "F2"),
-        ("surface/ellipsoid", "F2"),
-        ("surface/ellipsoid-potential", "F2"),
-    ];
-    for (path, name) in cases {
+    second_integrals(&[
+        "plane/unbalanced-ball",
+        "plane/balanced-ball-gyrostat",
+        "plane/revolution",
+        "sphere/borisov-mamaev-ball-potential",
+        "flat-base/symmetric-base",
+        "surface/ellipsoid",
+    ]);
+}
+
+#[test]
+#[ignore = "slow: as one of each kind above"]
+fn more_integrals_of_the_papers_are_found_and_proved() {
+    second_integrals(&[
+        "plane/balanced-ball",
+        "plane/ellipsoid-mb-mu",
+        "plane/balanced-ball-brun",
+        "sphere/borisov-mamaev-ball",
+        "sphere/symmetric-ball",
+        "flat-base/base-through-centre",
+        "surface/ellipsoid-potential",
+    ]);
+}
+
+fn second_integrals(paths: &[&str]) {
+    for path in paths {
         let report = searched(path, &effort(2));
         let found: Vec<_> =
             report.found.iter().filter(|found| found.kind == FoundKind::Integral).collect();
@@ -66,7 +82,7 @@ fn integrals_of_the_papers_are_found_and_proved() {
         assert_eq!(found[0].verdict, Verdict::Proved, "{path}: {}", found[0].text());
         // The library contains neither the claim nor its form: the two are shown to be dependent.
         let known = found[0].known.as_deref().unwrap_or("");
-        assert!(known.starts_with(name), "{path}: {} comes from `{known}`", found[0].text());
+        assert!(known.starts_with("F2"), "{path}: {} comes from `{known}`", found[0].text());
         assert!(report.opinions.iter().all(|opinion| opinion.agrees()), "{path}: singular values");
         let last = report.counts.last().expect("integrals were counted");
         assert_eq!(last.dimension, last.known, "{path}: all that are counted are found");
@@ -212,12 +228,7 @@ fn a_force_that_is_no_potential_makes_no_false_theorem() {
 #[test]
 fn potentials_and_rotors_that_keep_an_integral_are_found_and_proved() {
     // Numbers of potentials and rotors in the ansatz.
-    let cases = [
-        ("plane/balanced-ball", 6, 3),
-        ("plane/ellipsoid-mb-mu", 6, 0),
-        ("sphere/borisov-mamaev-ball", 5, 0),
-        ("open/parallel-ellipsoid", 6, 0),
-    ];
+    let cases = [("plane/balanced-ball", 6, 3), ("sphere/borisov-mamaev-ball", 5, 0)];
     let mut wanted = effort(2);
     (wanted.ansatz.potentials, wanted.ansatz.gyrostats) = (true, true);
     for (path, potentials, rotors) in cases {

@@ -167,7 +167,8 @@ fn integrals_with_functions_are_found() {
         ),
     ];
     for (rates, wanted) in fields {
-        let report = searched(&any_field(rates), &Effort::default());
+        let effort = Effort { by_factors: false, ..Effort::default() };
+        let report = searched(&any_field(rates), &effort);
         let case = Case::parse(&any_field(rates), &[]).expect("a case");
         let found: Vec<&str> = report.formulas(FoundKind::Integral).collect();
         for own in wanted {
@@ -296,7 +297,7 @@ fn coefficients_contain_the_roots_of_the_field() {
         let rates = rates.each_ref().map(String::as_str);
         let text = field(parameters, &rates);
         let case = Case::parse(&text, &[]).expect("a case");
-        let report = searched(&text, &Effort::default());
+        let report = searched(&text, &Effort { by_factors: false, ..Effort::default() });
         let wanted = case.formula(wanted).expect("a formula");
         let all = report.functions(FoundKind::Integral).cloned().chain([wanted.clone()]).collect();
         let claims = [Claim::integral(&wanted), Claim::independent(all)];

@@ -10,7 +10,7 @@ use super::CommandOutput;
 use super::Progress;
 use super::chart::parse_size;
 use super::ink::{Ink, Sheet};
-use super::motion::{MotionArgs, Threads, parse_float, parse_number, wrong_formula};
+use super::motion::{MotionArgs, Threads, check_time, parse_float, parse_number, wrong_formula};
 use super::output::Ending;
 use super::starts::{GivenStart, example, given, misfit};
 use super::watching::watched;
@@ -64,9 +64,7 @@ pub fn run(options: &BasinArgs) -> Result<CommandOutput, String> {
 /// Finds the basins and writes their file; returns the report, and whether motions were stopped.
 fn answer(options: &BasinArgs) -> Result<(String, bool), String> {
     let out = options.ink.output(Ending::CHARTS, &[&options.subject.case])?;
-    if options.time == 0.0 || !options.time.is_finite() {
-        return Err("error: --time: write a number that is not 0".to_string());
-    }
+    check_time(options.time)?;
     let count = options.size[0] * options.size[1];
     if count > MOST_MOTIONS {
         return Err(format!(

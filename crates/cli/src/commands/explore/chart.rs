@@ -18,7 +18,7 @@ use super::Progress;
 use super::eval::Opened;
 use super::ink::{Ink, Sheet};
 use super::motion::{
-    MotionArgs, SectionPlaneArgs, Threads, parse_float, parse_start, wrong_choice,
+    MotionArgs, SectionPlaneArgs, Threads, check_time, parse_float, parse_start, wrong_choice,
 };
 use super::output::{Ending, Output};
 use super::share::{Share, Target, carry_out};
@@ -106,9 +106,7 @@ impl ChartArgs {
 impl ChartJob {
     pub(in crate::commands) fn new(options: ChartArgs, opened: Opened) -> Result<Self, String> {
         let case = &opened.case;
-        if options.time == 0.0 || !options.time.is_finite() {
-            return Err("error: --time: write a number that is not 0".to_string());
-        }
+        check_time(options.time)?;
         let out = match options.share.part {
             Some(_) => None,
             None => options.ink.output(Ending::CHARTS, &[&options.subject.case])?,

@@ -13,7 +13,7 @@ use liouville_flow::{Begin, FlowError, Launches, Spectrum, Start};
 use serde::{Deserialize, Serialize};
 
 use super::eval::Opened;
-use super::motion::{MotionArgs, SectionPlaneArgs, Threads, parse_float};
+use super::motion::{MotionArgs, SectionPlaneArgs, Threads, check_time, parse_float};
 use super::orbit::parse_iterates;
 use super::output::{Ending, Output};
 use super::share::{Share, Target, carry_out};
@@ -136,9 +136,7 @@ pub struct ExponentsJob {
 
 impl ExponentsJob {
     pub(in crate::commands) fn new(options: ExponentsArgs, opened: Opened) -> Result<Self, String> {
-        if options.time() == 0.0 || !options.time().is_finite() {
-            return Err("error: --time: write a number that is not 0".to_string());
-        }
+        check_time(options.time())?;
         if opened.case.model.system.has_arbitrary_function() {
             return Err(options.subject.told(&FlowError::Arbitrary));
         }

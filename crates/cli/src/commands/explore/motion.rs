@@ -248,6 +248,14 @@ pub fn wrong_choice(error: &ChoiceError) -> String {
     }
 }
 
+/// Message about a time in which nothing moves.
+pub fn check_time(time: f64) -> Result<(), String> {
+    match time != 0.0 && time.is_finite() {
+        true => Ok(()),
+        false => Err("error: --time: write a number that is not 0".to_string()),
+    }
+}
+
 /// Number of threads.
 #[derive(Clone, Copy, Debug, Args)]
 pub struct Threads {

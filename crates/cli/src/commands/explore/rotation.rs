@@ -225,9 +225,7 @@ impl Line {
     fn titles(&self, case: &Case, axes: &[String]) -> Vec<String> {
         match self.ends[0] {
             GivenStart::Values(_) => axes.to_vec(),
-            GivenStart::State(_) => {
-                (0..case.model.dimension()).map(|k| case.model.component_name(k)).collect()
-            }
+            GivenStart::State(_) => case.model.state_names(),
         }
     }
 }

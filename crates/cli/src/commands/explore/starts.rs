@@ -158,8 +158,7 @@ fn from_text(case: &Case, path: &Path, text: &str) -> Result<Vec<(String, GivenS
 
 /// Places in the state of the columns of a file.
 fn header(case: &Case, line: &str) -> Result<Vec<usize>, String> {
-    let dimension = case.model.dimension();
-    let known: Vec<String> = (0..dimension).map(|k| case.model.component_name(k)).collect();
+    let known = case.model.state_names();
     let mut order = Vec::new();
     for name in line.split(',') {
         let name = name.trim().trim_matches('"');
@@ -173,7 +172,7 @@ fn header(case: &Case, line: &str) -> Result<Vec<usize>, String> {
         }
         order.push(place);
     }
-    match (0..dimension).find(|place| !order.contains(place)) {
+    match (0..known.len()).find(|place| !order.contains(place)) {
         Some(place) => Err(format!("there is no column `{}`", known[place])),
         None => Ok(order),
     }

@@ -49,7 +49,7 @@ fn sizes_are_in_millimetres_and_words_can_be_chosen() {
     let png = drawn(
         "sizes",
         "two.png",
-        &[&case[..], &FEW, &["--width", "50.8", "--dpi", "300"]].concat(),
+        &[&case[..], &FEW, &["--no-marks", "--width", "50.8", "--dpi", "300"]].concat(),
     );
     let width = png.get(16..20).expect("a header");
     assert_eq!(width, 600u32.to_be_bytes(), "two inches at 300 dots each");

@@ -58,6 +58,6 @@ fn where_it_has_values_the_orbit_persists() {
         let theorem = theorem(term, b);
         assert!(theorem.ends_with("for these parameters and all near them"), "{term}: {theorem}");
     }
-    let theorem = of_figure(8)[0].evidence.theorem.as_ref().expect("stated");
+    let theorem = of_figure(6)[0].evidence.theorem.as_ref().expect("stated");
     assert!(theorem.contains("near them for which the motion keeps"), "{theorem}");
 }

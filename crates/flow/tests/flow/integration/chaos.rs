@@ -272,7 +272,7 @@ fn a_far_start_is_forgotten_by_a_chart() {
     let axes = [(0, 26.0, 30.0), (1, 2.6, 2.7)]
         .map(|(index, from, to)| axis(Coordinate::Parameter { index, component: 0 }, from, to, 1));
     let state = read_state(&case, "x=1e7 y=1 z=20").expect("a state");
-    let request = PlaneRequest { axes, launch: Launch::State(Some(state)), time: 200.0, seed: 1 };
+    let request = PlaneRequest { axes, launch: Launch::State(Some(state)), time: 100.0, seed: 1 };
     let found = plane(&case, &request, 1, &|_| ()).expect("a plane");
     let found = found[0].as_ref().expect("a motion");
     assert_eq!(found.character, Character::StrangeAttractor, "{found:?}");

@@ -109,10 +109,10 @@ fn sections_do_not_show_the_lanes() {
     let pendulum = parse(DOUBLE_PENDULUM);
     // A motion has left the well before so many crossings.
     for (case, surface, crossings, fails) in [
-        (&ball, ("γ3 = 0", "γ1, ω3"), 8, false),
-        (&band, ("y = x/3", "x, z"), 8, false),
+        (&ball, ("γ3 = 0", "γ1, ω3"), 4, false),
+        (&band, ("y = x/3", "x, z"), 4, false),
         (&well, ("v = 0", "x"), 25, true),
-        (&pendulum, ("α = β", "β, β'"), 8, false),
+        (&pendulum, ("α = β", "β, β'"), 4, false),
     ] {
         let mut starts = starts(case, COUNTS[4]);
         // One does not start at all.

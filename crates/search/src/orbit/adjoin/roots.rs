@@ -7,7 +7,7 @@ use liouville::mechanics::System;
 use liouville::number::UnaryFunction;
 use liouville::number::rational::Rational;
 
-use super::super::super::terms::recorded;
+use super::super::super::terms::{recorded, varying};
 use super::parts::{Read, read};
 use super::read::StepReader;
 use super::ring::{AdjoinedRing, Atom, Of};
@@ -55,12 +55,8 @@ pub fn roots(case: &Case) -> Result<Vec<(Formula, Option<Rational>)>, SearchErro
     let reached = graph.reached(field);
     let mut ring = AdjoinedRing::new(parameters, case.model.dimension(), Vec::new());
     let mut reader = StepReader::new(&graph);
-    let mut varies = vec![false; graph.len()];
+    let varies = varying(&graph, parameters);
     for (place, step) in graph.steps().enumerate() {
-        varies[place] = match step {
-            Step::Input(input) => input >= parameters,
-            _ => step.arguments().any(|argument| varies[argument]),
-        };
         let is_root = match step {
             Step::Unary(function, _) => function == UnaryFunction::Sqrt,
             Step::Power(_, exponent) => exponent.parts().1 == 2.into(),

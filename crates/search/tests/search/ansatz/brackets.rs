@@ -3,7 +3,7 @@
 use liouville::verdict::Verdict;
 use liouville_search::{Effort, FoundKind, Hamiltonians, SearchReport, search};
 
-use crate::ansatz::{case, effort};
+use crate::ansatz::{case, effort, whole};
 
 /// Data of the finds, with their kinds.
 fn with(report: &SearchReport) -> Vec<(&str, &str)> {
@@ -13,7 +13,7 @@ fn with(report: &SearchReport) -> Vec<(&str, &str)> {
 
 /// Searches a field of two or more variables for brackets; returns the report and the brackets.
 fn bracketed(body: &str, hamiltonians: Hamiltonians) -> (SearchReport, Vec<String>) {
-    let wanted = Effort { poisson: Some(hamiltonians), ..effort(0) };
+    let wanted = Effort { poisson: Some(hamiltonians), ..whole(0) };
     let case = case(&format!("title = 'x'\nsystem = 'field'\ncheck-weights = false\n{body}"));
     let report = search(&case, &wanted, &mut |_| {}).expect("it can be searched");
     let own = report.found.iter().filter(|found| found.kind == FoundKind::Bracket);

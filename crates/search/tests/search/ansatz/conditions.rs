@@ -211,6 +211,32 @@ fn of_x(rates: [&str; 2]) -> (Vec<String>, String) {
 }
 
 #[test]
+fn a_claim_without_equations_is_told_why() {
+    let asked = |rate: &str, integral: &str| {
+        let text = format!(
+            "title = 'x'\n[parameters]\na = '0.5..2'\nb = '0.5..2'\n[state]\nx = '0.5..2'\ny = '0.5..2'\n\
+             [field]\n\"x'\" = 'y'\n\"y'\" = '{rate}'\n[[claim]]\nname = 'C'\nintegral = '{integral}'\n"
+        );
+        let mut wanted = effort(0);
+        wanted.conditions = Some(ConditionTarget::Claim("C".to_string()));
+        let report = search(&case(&text), &wanted, &mut |_| {}).expect("searched");
+        assert!(report.conditions.is_empty(), "{rate}: {:?}", report.conditions);
+        report.remarks.into_iter().map(|own| own.text).collect::<Vec<_>>()
+    };
+    let always = asked("-a*x", "y² + a*x²");
+    assert!(always.iter().any(|own| own == "C: no condition is needed"), "{always:?}");
+    for (rate, integral) in [
+        ("-a*sin(x)", "y²/2 - b*cos(x)"),
+        ("-exp(a*x)", "y²/2 + exp(b*x)/b"),
+        ("-x^a", "y²/2 + x^(b + 1)/(b + 1)"),
+    ] {
+        let open = asked(rate, integral);
+        assert!(open.iter().any(|own| own.starts_with("no condition is stated")), "{open:?}");
+        assert!(open.iter().all(|own| !own.contains("is needed")), "{open:?}");
+    }
+}
+
+#[test]
 fn real_zeros_of_sums_of_squares_are_told() {
     // Modulo primes that are 3 modulo 4 the first has one point alone.
     let all: [(&str, &[&str]); 7] = [

@@ -7,7 +7,7 @@ use liouville_search::{
 use std::sync::atomic::Ordering;
 use std::time::Duration;
 
-use crate::ansatz::{case, effort, searched};
+use crate::ansatz::{case, effort, searched, whole};
 
 fn of(text: &str, effort: &Effort) -> SearchReport {
     search(&case(text), effort, &mut |_| {}).expect("it can be searched")
@@ -31,7 +31,7 @@ fn coefficients_that_depend_on_parameters_are_bounded_by_steps() {
         \"y'\" = '9*a*x*y - 27*a*y^2 + 3*x^3 + 9*x^2*y + 18*x^2*z - 6*x^2 + 3*x - 9*y'\n\
         \"z'\" = '-6*a*x*y - 27*a*y*z + 12*a*y + x^3 + 6*x^2*z - x^2 + 6*x*z - x + 1'\n";
     // Without a bound it takes minutes.
-    let report = of(cubics, &Effort { seconds: 0.5, ..effort(1) });
+    let report = of(cubics, &Effort { seconds: 0.5, ..whole(1) });
     assert!(report.remarks.iter().any(|own| own.contains("are not all sought")), "it is told");
     assert_eq!(report.formulas(FoundKind::Integral).count(), 1, "{:?}", report.found);
 }
@@ -53,7 +53,8 @@ fn what_was_asked_for_comes_before_higher_degrees() {
     let field = "title = 'x'\n[parameters]\nb = '1..20'\n[state]\nx = '-2..2'\ny = '-2..2'\np = '-2..2'\n\
                  q = '-2..2'\n[hamiltonian]\nfunction = '(p²+q²)/2+x²/2+8*y²+x²*y+b*y^3/3'\n\
                  pairs = [['x','p'], ['y','q']]\n";
-    let wanted = Effort { halt: Halt::within(Duration::from_secs(1000)), ..existence(1) };
+    let conditions = Some(ConditionTarget::Existence);
+    let wanted = Effort { conditions, halt: Halt::within(Duration::from_secs(1000)), ..whole(1) };
     let switch = wanted.halt.switch();
     let mut parts: Vec<String> = Vec::new();
     let report = search(&case(field), &wanted, &mut |part| {
@@ -125,7 +126,7 @@ fn integrals_that_depend_on_others_are_noted_once() {
 #[test]
 fn large_numbers_have_one_sign() {
     let fast = "title = 'x'\n[state]\nx = '-2..2'\ny = '-2..2'\n[field]\n\"x'\" = 'y'\n\"y'\" = '-10^20*x'\n";
-    let report = of(fast, &effort(1));
+    let report = of(fast, &whole(1));
     let angles: Vec<&str> =
         report.found.iter().map(|own| own.text()).filter(|own| own.contains("atan")).collect();
     assert!(!angles.is_empty(), "{:?}", report.found);

@@ -127,7 +127,7 @@ fn the_masses_on_constraints_are_a_density() {
                 U = \"x' - s'*sin(phi) - s*cos(phi)*phi'\"\nV = \"y' + s'*cos(phi) - s*sin(phi)*phi'\"\n\
                 [lagrangian]\nkinetic = \"(M*(x'^2 + y'^2) + J*phi'^2 + m*(U^2 + V^2))/2\"\n\
                 potential = 's^2'\nconstraints = [\"y'*cos(phi) = x'*sin(phi)\"]\n";
-    let report = searched(text, &Effort { degree: 1, ..Effort::default() });
+    let report = searched(text, &Effort { degree: 1, by_class: false, ..Effort::default() });
     let all = told(&report, FoundKind::Density);
     assert!(all.len() == 1 && all[0].contains("M*m*s²"), "{all:?}: {:?}", report.found);
 }
