@@ -1,0 +1,115 @@
+//! Iterates of a map enclosed over boxes, with their derivatives.
+//!
+//! ```text
+//! box, its middle ─ n times Φ and DΦ in balls ─▶ Φⁿ(middle), DΦⁿ over the box, hulls of all iterates
+//! ```
+
+use super::matrix::product;
+use crate::error::FlowError;
+use crate::motion::recorded::point;
+use crate::validated::Enclosure;
+use liouville::graph::{Evaluator, Expr, Tape, record};
+use liouville::mechanics::Model;
+use liouville::number::ball::Ball;
+use liouville::number::rational::Rational;
+use liouville::scalar::Scalar;
+
+/// A map with fixed parameters on a tape: images, the columns of its derivative, and the operations as
+/// written that these do without.
+pub struct EnclosedMap {
+    tape: Tape,
+    pub dimension: usize,
+}
+
+/// Iterates of a box.
+pub struct Iterated {
+    /// Image of the middle after all iterates.
+    pub middle: Vec<Enclosure>,
+    /// Derivative after all iterates, row by row.
+    pub slopes: Vec<Vec<Enclosure>>,
+    /// Boxes that hold all iterates, the first one among them.
+    pub hulls: Vec<Vec<Enclosure>>,
+}
+
+impl EnclosedMap {
+    pub fn new(model: &Model, parameters: &[Rational]) -> Result<Self, FlowError> {
+        let dimension = model.dimension();
+        let own = model.equations_of_motion();
+        let all: Vec<_> = model.parameter_formulas_of(&own).into_iter().chain(own).collect();
+        let (graph, (mut images, written)) = record(dimension, |state| {
+            let phase = point(model, parameters, state);
+            let written = phase.literal_values(all.iter().copied());
+            let mut images = phase.field().to_vec();
+            for column in 0..dimension {
+                let unit = |row| Expr::rational(&Rational::from(i64::from(row == column)));
+                let vector: Vec<Expr> = (0..dimension).map(unit).collect();
+                images.extend(phase.lift(&vector).field().iter().map(|image| image.eps));
+            }
+            (images, written)
+        })?;
+        if graph.inputs() > dimension {
+            return Err(FlowError::Antiderivative);
+        }
+        images.extend(graph.left_out(&images, &written));
+        Ok(Self { tape: Tape::new(&graph, &images), dimension })
+    }
+
+    /// Evaluator of the map, for many boxes.
+    pub fn evaluator(&self) -> Evaluator<'_, Ball<1>> {
+        Evaluator::new(&self.tape, Ball::<1>)
+    }
+
+    /// Encloses the image of a box and the columns of the derivative over it; `None` where the map may have no value
+    /// or no derivative.
+    fn image(
+        &self,
+        evaluator: &mut Evaluator<'_, Ball<1>>,
+        state: &[Enclosure],
+    ) -> Option<(Vec<Enclosure>, Vec<Vec<Enclosure>>)> {
+        evaluator.run(&state.iter().map(|x| x.block()).collect::<Vec<_>>());
+        let all: Vec<Enclosure> = evaluator.outputs().map(Enclosure::first).collect();
+        if !all.iter().all(|x| x.is_finite()) {
+            return None;
+        }
+        let n = self.dimension;
+        let rows = (0..n).map(|row| (0..n).map(|column| all[n + column * n + row]).collect());
+        Some((all[..n].to_vec(), rows.collect()))
+    }
+
+    /// Encloses iterates of a box with this middle and these radii.
+    ///
+    /// Φᵏ(x) − Φᵏ(c) is (x − c) times a mean of DΦᵏ over the segment, and DΦᵏ a product of the derivatives at the
+    /// iterates, which lie in their hulls.
+    pub fn iterated(
+        &self,
+        evaluator: &mut Evaluator<'_, Ball<1>>,
+        (middle, radii): (&[f64], &[f64]),
+        count: usize,
+    ) -> Option<Iterated> {
+        let n = self.dimension;
+        let side: Vec<Enclosure> = radii.iter().map(|r| Enclosure::about(0.0, *r)).collect();
+        let mut hull: Vec<Enclosure> =
+            middle.iter().zip(radii).map(|(x, r)| Enclosure::about(*x, *r)).collect();
+        let mut at: Vec<Enclosure> = middle.iter().map(|x| Enclosure::exact(*x)).collect();
+        let unit = |row, column| Enclosure::exact(if row == column { 1.0 } else { 0.0 });
+        let mut slopes: Vec<Vec<Enclosure>> =
+            (0..n).map(|row| (0..n).map(|column| unit(row, column)).collect()).collect();
+        let mut hulls = vec![hull.clone()];
+        for _ in 0..count {
+            let (natural, own) = self.image(evaluator, &hull)?;
+            at = self.image(evaluator, &at)?.0;
+            slopes = product(&own, &slopes);
+            let mean = slopes.iter().zip(&at).map(|(row, at)| {
+                row.iter().zip(&side).fold(*at, |sum, (slope, side)| sum + *slope * *side)
+            });
+            // Either encloses the image; the narrower one counts.
+            let narrower = |(a, b): (Enclosure, Enclosure)| if b.rad < a.rad { b } else { a };
+            hull = natural.into_iter().zip(mean).map(narrower).collect();
+            if !slopes.iter().flatten().chain(&hull).all(|x| x.is_finite()) {
+                return None;
+            }
+            hulls.push(hull.clone());
+        }
+        Some(Iterated { middle: at, slopes, hulls })
+    }
+}
