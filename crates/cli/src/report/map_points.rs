@@ -56,8 +56,8 @@ impl BoxReport<'_> {
             out.push_str(&text(case, point, of.period));
         }
         for (middle, radii) in found.open.iter().take(NAMED) {
-            let wide = radii.iter().copied().fold(0.0, f64::max);
-            out.push_str(&format!("not decided: within {wide:.0e} of {}\n", state(case, middle)));
+            let wide = raised(radii.iter().copied().fold(0.0, f64::max));
+            out.push_str(&format!("not decided: within {wide} of {}\n", state(case, middle)));
         }
         if found.open.len() > NAMED {
             let rest = found.open.len() - NAMED;
@@ -122,13 +122,13 @@ pub fn text(case: &Case, point: &MapPoint, asked: usize) -> String {
     }
     match &point.proof {
         Ok(radii) => {
-            let wide = radii.iter().copied().fold(0.0, f64::max);
+            let wide = raised(radii.iter().copied().fold(0.0, f64::max));
             let least = match point.is_least {
                 true => format!("least period {}", point.period),
                 false => format!("period {}, which is not proved to be the least,", point.period),
             };
             out.push_str(&format!(
-                "  proved: one point of {least} lies within {wide:.0e} of the first, and no other of this \
+                "  proved: one point of {least} lies within {wide} of the first, and no other of this \
                  period\n"
             ));
         }
@@ -159,6 +159,14 @@ fn entry(point: &MapPoint) -> Value {
         "kind": kind(point.kind),
         "multipliers": point.multipliers.iter().map(multiplier).collect::<Vec<_>>(),
     })
+}
+
+/// Prints a bound with one digit, rounded up.
+fn raised(bound: f64) -> String {
+    let power = libm::pow(10.0, libm::floor(libm::log10(bound)));
+    // A part of a digit above, against the rounding of the quotient.
+    let digit = libm::ceil(bound / power * (1.0 + 1e-9));
+    format!("{:.0e}", digit * power)
 }
 
 fn state(case: &Case, state: &[f64]) -> String {

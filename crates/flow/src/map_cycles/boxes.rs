@@ -6,6 +6,8 @@
 //!     ─ otherwise ─▶ two halves
 //! ```
 
+use std::collections::VecDeque;
+
 use super::newton::{PointBox, PointSearch};
 use crate::halt::Halt;
 
@@ -41,8 +43,8 @@ pub fn all(search: &mut PointSearch<'_>, ends: &[[f64; 2]]) -> Found {
     let most = MOST_IMAGES / search.period.max(1);
     let sides: Vec<f64> = ends.iter().map(|[low, high]| high - low).collect();
     let mut found = Found::default();
-    let mut rest = vec![boxed(ends)];
-    while let Some((middle, radii)) = rest.pop() {
+    let mut rest = VecDeque::from([boxed(ends)]);
+    while let Some((middle, radii)) = rest.pop_front() {
         if found.looked_at >= most || halt.is_raised() {
             found.open.push((middle, radii));
             continue;

@@ -9,6 +9,8 @@ use liouville::number::ball::Ball;
 const MOST_ITERATIONS: usize = 60;
 /// Step after which Newton's method has converged, relative to the state.
 const CONVERGED: f64 = 1e-12;
+/// Size below which a component is 0.
+const FAINT: f64 = 1e-200;
 /// Limit on the boxes tried, their growth, and the least radius, relative to the state.
 const MOST_BOXES: usize = 12;
 const GROWTH: f64 = 2.0;
@@ -80,7 +82,10 @@ impl<'m> PointSearch<'m> {
             if length <= CONVERGED * size && length >= last {
                 return Some(at);
             }
-            at.iter_mut().zip(&moved.step).for_each(|(x, step)| *x += step.mid);
+            for (x, step) in at.iter_mut().zip(&moved.step) {
+                *x += step.mid;
+                *x = if x.abs() < FAINT { 0.0 } else { *x };
+            }
             if length == 0.0 {
                 return Some(at);
             }
