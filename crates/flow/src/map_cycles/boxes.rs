@@ -13,6 +13,8 @@ use crate::halt::Halt;
 
 /// Limit on the images of boxes that are enclosed.
 const MOST_IMAGES: usize = 4_000_000;
+/// Limit on the parts that are left: where points fill curves or areas there are ever more.
+const MOST_PARTS: usize = 100_000;
 /// Side of the smallest boxes, in that of the whole.
 const SMALLEST: f64 = 1e-9;
 /// Reach of a box in which a point next to it may lie, in its side.
@@ -41,11 +43,13 @@ enum Outcome {
 pub fn all(search: &mut PointSearch<'_>, ends: &[[f64; 2]]) -> Found {
     let halt = Halt::current();
     let most = MOST_IMAGES / search.period.max(1);
+    let mut is_stopped = false;
     let sides: Vec<f64> = ends.iter().map(|[low, high]| high - low).collect();
     let mut found = Found::default();
     let mut rest = VecDeque::from([boxed(ends)]);
     while let Some((middle, radii)) = rest.pop_front() {
-        if found.looked_at >= most || halt.is_raised() {
+        is_stopped |= found.looked_at >= most || rest.len() >= MOST_PARTS || halt.is_raised();
+        if is_stopped {
             found.open.push((middle, radii));
             continue;
         }
