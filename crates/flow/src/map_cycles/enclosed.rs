@@ -25,8 +25,8 @@ pub struct EnclosedMap {
 pub struct Iterated {
     /// Image of the middle after all iterates.
     pub middle: Vec<Enclosure>,
-    /// Derivative after all iterates, row by row.
-    pub slopes: Vec<Vec<Enclosure>>,
+    /// Derivative after all iterates, row by row, if there is one all over the box.
+    pub slopes: Option<Vec<Vec<Enclosure>>>,
     /// Boxes that hold all iterates, the first one among them.
     pub hulls: Vec<Vec<Enclosure>>,
 }
@@ -59,21 +59,23 @@ impl EnclosedMap {
         Evaluator::new(&self.tape, Ball::<1>)
     }
 
-    /// Encloses the image of a box and the columns of the derivative over it; `None` where the map may have no value
-    /// or no derivative.
+    /// Encloses the image of a box and the derivative over it, if there is one all over it and what is written has
+    /// values; `None` where the image may have none.
     fn image(
         &self,
         evaluator: &mut Evaluator<'_, Ball<1>>,
         state: &[Enclosure],
-    ) -> Option<(Vec<Enclosure>, Vec<Vec<Enclosure>>)> {
+    ) -> Option<(Vec<Enclosure>, Option<Vec<Vec<Enclosure>>>)> {
         evaluator.run(&state.iter().map(|x| x.block()).collect::<Vec<_>>());
         let all: Vec<Enclosure> = evaluator.outputs().map(Enclosure::first).collect();
-        if !all.iter().all(|x| x.is_finite()) {
+        let n = self.dimension;
+        let (image, rest) = all.split_at(n);
+        if !image.iter().all(|x| x.is_finite()) {
             return None;
         }
-        let n = self.dimension;
-        let rows = (0..n).map(|row| (0..n).map(|column| all[n + column * n + row]).collect());
-        Some((all[..n].to_vec(), rows.collect()))
+        let row = |row: usize| (0..n).map(|column| rest[column * n + row]).collect();
+        let is_smooth = rest.iter().all(|x| x.is_finite());
+        Some((image.to_vec(), is_smooth.then(|| (0..n).map(row).collect())))
     }
 
     /// Encloses iterates of a box with this middle and these radii.
@@ -92,20 +94,23 @@ impl EnclosedMap {
             middle.iter().zip(radii).map(|(x, r)| Enclosure::about(*x, *r)).collect();
         let mut at: Vec<Enclosure> = middle.iter().map(|x| Enclosure::exact(*x)).collect();
         let unit = |row, column| Enclosure::exact(if row == column { 1.0 } else { 0.0 });
-        let mut slopes: Vec<Vec<Enclosure>> =
-            (0..n).map(|row| (0..n).map(|column| unit(row, column)).collect()).collect();
+        let first = (0..n).map(|row| (0..n).map(|column| unit(row, column)).collect()).collect();
+        let mut slopes: Option<Vec<Vec<Enclosure>>> = Some(first);
         let mut hulls = vec![hull.clone()];
         for _ in 0..count {
             let (natural, own) = self.image(evaluator, &hull)?;
             at = self.image(evaluator, &at)?.0;
-            slopes = product(&own, &slopes);
-            let mean = slopes.iter().zip(&at).map(|(row, at)| {
-                row.iter().zip(&side).fold(*at, |sum, (slope, side)| sum + *slope * *side)
-            });
-            // Either encloses the image; the narrower one counts.
-            let narrower = |(a, b): (Enclosure, Enclosure)| if b.rad < a.rad { b } else { a };
-            hull = natural.into_iter().zip(mean).map(narrower).collect();
-            if !slopes.iter().flatten().chain(&hull).all(|x| x.is_finite()) {
+            let is_finite = |all: &Vec<Vec<Enclosure>>| all.iter().flatten().all(|x| x.is_finite());
+            slopes = own.zip(slopes).map(|(own, slopes)| product(&own, &slopes)).filter(is_finite);
+            hull = natural;
+            for (row, (x, at)) in hull.iter_mut().zip(&at).enumerate() {
+                let Some(slopes) = &slopes else { break };
+                let terms = slopes[row].iter().zip(&side);
+                let mean = terms.fold(*at, |sum, (slope, side)| sum + *slope * *side);
+                // Either encloses the image; the narrower one counts.
+                *x = if mean.rad < x.rad { mean } else { *x };
+            }
+            if !hull.iter().all(|x| x.is_finite()) {
                 return None;
             }
             hulls.push(hull.clone());

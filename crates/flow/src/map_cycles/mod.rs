@@ -127,8 +127,8 @@ fn described(map: &EnclosedMap, at: &[f64], period: usize) -> Option<MapPoint> {
     }
     let is_least = proved.as_ref().is_some_and(|(_, moved)| is_least(moved, period));
     let slopes = match &proved {
-        Some((_, moved)) => moved.iterated.slopes.clone(),
-        None => search.iterated((&at, &still))?.slopes,
+        Some((_, moved)) => moved.iterated.slopes.clone()?,
+        None => search.iterated((&at, &still))?.slopes?,
     };
     let (multipliers, kind) = multipliers(&slopes);
     let measured = |x: Enclosure| MeasuredNumber { value: x.mid, error: x.rad };

@@ -55,9 +55,10 @@ impl<'m> PointSearch<'m> {
     /// Applies Krawczyk's operator to a box; `None` where the map may have no value, or DΦⁿ − 1 no inverse.
     pub fn moved(&self, (middle, radii): (&[f64], &[f64]), iterated: Iterated) -> Option<Moved> {
         let n = middle.len();
+        let slopes = iterated.slopes.as_ref()?;
         let one = |row, column| Enclosure::exact(if row == column { 1.0 } else { 0.0 });
         let column = |column: usize| {
-            let entry = |row: usize| (row, iterated.slopes[row][column] - one(row, column));
+            let entry = |row: usize| (row, slopes[row][column] - one(row, column));
             (0..n).map(entry).collect::<Vec<_>>()
         };
         let columns: Vec<_> = (0..n).map(column).collect();

@@ -73,6 +73,13 @@ fn all_points_in_a_box_are_counted() {
         let found = within(&logistic(r), &[[0.0, 1.0]], period);
         assert!(found.open.is_empty() && found.points.len() == count, "{r}: {found:?}");
     }
+    // Lozi's map and the tent map are smooth but on a line.
+    let lozi = map("x = '-2..2'\ny = '-2..2'", "x = '1 - 1.7*|x| + y'\ny = '0.5*x'");
+    let tent = map("x = '-1..2'", "x = '1 - |1 - 2*x|*0.95'");
+    for (case, ends, count) in [(&lozi, &ends[..], 4), (&tent, &[[-1.0, 2.0]][..], 4)] {
+        let found = within(case, ends, 2);
+        assert!(found.open.is_empty() && found.points.len() == count, "{found:?}");
+    }
     let sinks = within(&logistic("3.83"), &[[0.0, 1.0]], 3).points;
     let sinks = sinks.iter().filter(|point| point.kind == Some(CycleKind::Sink));
     assert_eq!(sinks.count(), 3);

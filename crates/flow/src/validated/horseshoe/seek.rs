@@ -28,8 +28,8 @@ use liouville::scalar::Scalar;
 /// Distance of the first starts, and the largest distance of crossings, against the saddle's state.
 const BEGIN: f64 = 1e-3;
 const NEAR: f64 = 0.05;
-/// Numbers of starts on each side: more where few find none, as where the curves lead to other saddles first.
-const STARTS: [usize; 2] = [200, 1000];
+/// Number of starts on each side.
+const STARTS: usize = 200;
 /// Number of periods for which motions are followed.
 const PERIODS: f64 = 10.0;
 /// Share of a period by which crossings of neighbouring motions may differ in time.
@@ -97,29 +97,19 @@ impl<'s> Seeker<'s> {
 
     /// Finds homoclinic orbits, the shortest first.
     pub fn find(&self) -> Result<Vec<Homoclinic>, Obstacle> {
-        for count in STARTS {
-            let found = self.find_from(count)?;
-            if !found.is_empty() {
-                return Ok(found);
-            }
-        }
-        Ok(Vec::new())
-    }
-
-    /// Finds them from so many starts on each side.
-    fn find_from(&self, count: usize) -> Result<Vec<Homoclinic>, Obstacle> {
         let begin = BEGIN / NEAR * self.near;
         let growth = self.saddle.multipliers[0].abs();
         let starts: Vec<f64> = [1.0, -1.0]
             .iter()
             .flat_map(|side| {
-                (0..=count).map(move |k| side * begin * libm::pow(growth, k as f64 / count as f64))
+                (0..=STARTS)
+                    .map(move |k| side * begin * libm::pow(growth, k as f64 / STARTS as f64))
             })
             .collect();
         let found = self.crossings(&starts)?;
         let mut all = Vec::new();
         for (index, pair) in found.windows(2).enumerate() {
-            if index == count {
+            if index == STARTS {
                 continue;
             }
             for crossing in pair[0].iter().filter(|crossing| crossing.returned) {
