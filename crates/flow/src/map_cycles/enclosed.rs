@@ -4,7 +4,7 @@
 //! box, its middle ─ n times Φ and DΦ in balls ─▶ Φⁿ(middle), DΦⁿ over the box, hulls of all iterates
 //! ```
 
-use super::matrix::product;
+use super::matrix::{Matrix, product};
 use crate::error::FlowError;
 use crate::motion::recorded::point;
 use crate::validated::Enclosure;
@@ -26,7 +26,7 @@ pub struct Iterated {
     /// Image of the middle after all iterates.
     pub middle: Vec<Enclosure>,
     /// Derivative after all iterates, row by row, if there is one all over the box.
-    pub slopes: Option<Vec<Vec<Enclosure>>>,
+    pub slopes: Option<Matrix>,
     /// Boxes that hold all iterates, the first one among them.
     pub hulls: Vec<Vec<Enclosure>>,
 }
@@ -65,7 +65,7 @@ impl EnclosedMap {
         &self,
         evaluator: &mut Evaluator<'_, Ball<1>>,
         state: &[Enclosure],
-    ) -> Option<(Vec<Enclosure>, Option<Vec<Vec<Enclosure>>>)> {
+    ) -> Option<(Vec<Enclosure>, Option<Matrix>)> {
         evaluator.run(&state.iter().map(|x| x.block()).collect::<Vec<_>>());
         let all: Vec<Enclosure> = evaluator.outputs().map(Enclosure::first).collect();
         let n = self.dimension;
@@ -95,12 +95,12 @@ impl EnclosedMap {
         let mut at: Vec<Enclosure> = middle.iter().map(|x| Enclosure::exact(*x)).collect();
         let unit = |row, column| Enclosure::exact(if row == column { 1.0 } else { 0.0 });
         let first = (0..n).map(|row| (0..n).map(|column| unit(row, column)).collect()).collect();
-        let mut slopes: Option<Vec<Vec<Enclosure>>> = Some(first);
+        let mut slopes: Option<Matrix> = Some(first);
         let mut hulls = vec![hull.clone()];
         for _ in 0..count {
             let (natural, own) = self.image(evaluator, &hull)?;
             at = self.image(evaluator, &at)?.0;
-            let is_finite = |all: &Vec<Vec<Enclosure>>| all.iter().flatten().all(|x| x.is_finite());
+            let is_finite = |all: &Matrix| all.iter().flatten().all(|x| x.is_finite());
             slopes = own.zip(slopes).map(|(own, slopes)| product(&own, &slopes)).filter(is_finite);
             hull = natural;
             for (row, (x, at)) in hull.iter_mut().zip(&at).enumerate() {

@@ -2,8 +2,11 @@
 
 use crate::validated::Enclosure;
 
-/// Product of two matrices, row by row.
-pub fn product(a: &[Vec<Enclosure>], b: &[Vec<Enclosure>]) -> Vec<Vec<Enclosure>> {
+/// Rows of a matrix.
+pub type Matrix = Vec<Vec<Enclosure>>;
+
+/// Product of two matrices.
+pub fn product(a: &[Vec<Enclosure>], b: &[Vec<Enclosure>]) -> Matrix {
     let entry = |row: &[Enclosure], column: usize| {
         row.iter().zip(b).fold(Enclosure::ZERO, |sum, (x, other)| sum + *x * other[column])
     };
@@ -12,7 +15,7 @@ pub fn product(a: &[Vec<Enclosure>], b: &[Vec<Enclosure>]) -> Vec<Vec<Enclosure>
 
 /// Determinant, by its first column.
 pub fn determinant(a: &[Vec<Enclosure>]) -> Enclosure {
-    let without = |left: usize| -> Vec<Vec<Enclosure>> {
+    let without = |left: usize| -> Matrix {
         let rows = a.iter().enumerate().filter(|(row, _)| *row != left);
         rows.map(|(_, row)| row[1..].to_vec()).collect()
     };
@@ -36,7 +39,7 @@ mod tests {
 
     #[test]
     fn determinants_have_their_signs() {
-        let rows = |rows: &[&[f64]]| -> Vec<Vec<Enclosure>> {
+        let rows = |rows: &[&[f64]]| -> Matrix {
             rows.iter().map(|row| row.iter().map(|x| Enclosure::exact(*x)).collect()).collect()
         };
         let matrix = rows(&[&[0.0, 2.0, 1.0], &[1.0, 0.0, 3.0], &[4.0, 1.0, 0.0]]);
