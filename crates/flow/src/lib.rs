@@ -13,6 +13,7 @@ mod chaos;
 mod closed;
 mod error;
 mod halt;
+mod map_cycles;
 mod motion;
 pub mod observe;
 mod record;
@@ -41,6 +42,7 @@ pub use closed::symmetric::{
 pub use closed::through::{ComputedClosedOrbit, MeasuredNumber};
 pub use error::FlowError;
 pub use halt::{stop_request, stoppable};
+pub use map_cycles::{MapBox, MapPoint, MapPoints, PointDoubt, map_point, map_points};
 pub use motion::columns::Columns;
 pub use motion::conserved::{Conserved, Fixed};
 pub use motion::iterates::{IterateError, MapOrbit, MapSampling, SampledMapOrbit, iterates};

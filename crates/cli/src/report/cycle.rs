@@ -115,7 +115,7 @@ pub fn text(case: &Case, found: &FoundOrbit) -> String {
     out
 }
 
-fn written(multiplier: &Multiplier) -> String {
+pub(super) fn written(multiplier: &Multiplier) -> String {
     let error = multiplier.error;
     if multiplier.im == 0.0 {
         return format!(" {}", shown(MeasuredNumber { value: multiplier.re, error }));

@@ -19,6 +19,7 @@ pub mod growth;
 mod hexadecimal;
 mod horseshoe_certificate;
 pub mod iterates;
+pub mod map_points;
 pub mod motion_certificate;
 pub mod orbit;
 pub mod point;

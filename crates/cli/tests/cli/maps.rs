@@ -263,13 +263,20 @@ fn commands_that_need_a_flow_refuse_a_map() {
     let out = out.to_str().expect("UTF-8");
     for arguments in [
         &["section", file, "--out", out][..],
-        &["periodic", file, "--start", "1,0.1"],
+        &["periodic", file, "--start", "1,0.1", "--time", "4"],
         &["report", file],
         &["bench", file],
         &["chart", file, "--x", "x=0..1", "--y", "y=0..1", "--out", out],
     ] {
         run(arguments).code(2).stderr(contains("is a map"));
     }
+    run(&["periodic", file, "--start", "1,0.1"]).code(0).stdout(
+        contains("fixed point: elliptic").and(contains("proved: one point of least period 1")),
+    );
+    run(&["periodic", file, "--box", "x=-1..1", "--box", "y=-1..1"])
+        .code(0)
+        .stdout(contains("1 point of period 1").and(contains("proved: these are all")));
+    run(&["periodic", file, "--box", "z=-1..1"]).code(2).stderr(contains("`z` is not a component"));
     run(&["exponents", file, "--start", "1,0.1"]).code(0).stdout(contains("n = 10000: regular"));
     run(&["search", file]).code(0).stdout(contains("x² + y²"));
     run(&["eval", file, "--state", "x=3 y=5"])

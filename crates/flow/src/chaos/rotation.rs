@@ -17,6 +17,10 @@ const CUTS: usize = 32;
 const ROUNDING: f64 = 1e-9;
 /// Largest product of the error and the square of a denominator at which a fraction is no accident.
 const CHANCE: f64 = 1e-3;
+/// Largest number of triples of angles that are compared, and the distance between neighbours on a
+/// curve, in the size of the whole and 1/√n.
+const MOST_TRIPLES: usize = 1500;
+const THIN: f64 = 0.15;
 /// Number of times an orbit has to go through all islands of a chain.
 const ROUNDS: u64 = 8;
 
@@ -54,7 +58,7 @@ impl RotationNumber {
         let resonance = simplest(means[0] - error, means[0] + error, most);
         let resonance = resonance.filter(|(_, q)| error * (*q as f64).powi(2) <= CHANCE);
         if !order.is_kept(&lifts) && !resonance.is_some_and(|own| order.is_of_islands(own)) {
-            return order.is_seen_aside().then(|| Self::none(&angles));
+            return (order.is_seen_aside() && is_curve(&angles)).then(|| Self::none(&angles));
         }
         let resonance = resonance.map(|(p, q)| (p % q, q));
         // Just below a whole turn is just below 0.
@@ -116,7 +120,7 @@ impl<'a> Order<'a> {
         let begins = before.zip(&self.places).filter(|(one, next)| class(one) != class(next));
         let arcs: Vec<usize> = begins.map(|(_, next)| class(next)).collect();
         if q == 1 {
-            return true;
+            return is_curve(self.angles);
         }
         let mut at = vec![None; q];
         arcs.iter().enumerate().for_each(|(place, class)| at[*class] = Some(place));
@@ -138,6 +142,31 @@ impl<'a> Order<'a> {
         };
         inner.max(round) > 0.5
     }
+}
+
+/// Whether successive angles lie near a curve or a few points, as they do not in chaos: the distance
+/// from one triple to the nearest other falls as 1/n on a curve, and as 1/√n or slower on an area.
+fn is_curve(angles: &[f64]) -> bool {
+    let Some(first) = angles.first() else { return false };
+    let near: Vec<f64> = angles.iter().map(|angle| turned(angle - first + 0.5)).collect();
+    let stride = near.len() / MOST_TRIPLES + 1;
+    let triples: Vec<&[f64]> = near.windows(3).step_by(stride).collect();
+    let apart = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(x, y)| (x - y) * (x - y)).sum::<f64>();
+    let nearest = |index: usize| {
+        let others = triples.iter().enumerate().filter(|(other, _)| *other != index);
+        others.map(|(_, other)| apart(triples[index], other)).fold(f64::INFINITY, f64::min)
+    };
+    let mut squares: Vec<f64> = (0..triples.len()).map(nearest).collect();
+    squares.sort_by(f64::total_cmp);
+    let median = squares.get(squares.len() / 2).map_or(f64::NAN, |square| square.sqrt());
+    let extent = |place: usize| {
+        let values = triples.iter().map(|own| own[place]);
+        let ends = values
+            .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)]);
+        ends[1] - ends[0]
+    };
+    let size = (0..3).map(|place| extent(place) * extent(place)).sum::<f64>().sqrt();
+    median * (triples.len() as f64).sqrt() <= THIN * size
 }
 
 /// Values below which an advance gets another turn: in the middle of the widest gaps between advances.
@@ -252,6 +281,13 @@ mod tests {
             angles.push(angle);
         }
         assert_eq!(RotationNumber::of(&angles), None);
+        // The same, wrapped round a torus that is seen from a point beside it.
+        let aside = |pair: &[f64]| {
+            let wrapped = |x: f64| x - TAU * libm::floor(x / TAU + 0.5);
+            libm::atan2(wrapped(pair[1] - pair[0]), wrapped(pair[1]) + 8.0)
+        };
+        let seen: Vec<f64> = angles.windows(2).map(aside).collect();
+        assert_eq!(RotationNumber::of(&seen), None, "chaos within less than a half turn");
         assert_eq!(RotationNumber::of(&[0.1, f64::NAN].repeat(100)), None);
         assert_eq!(RotationNumber::of(&[0.1, 0.2, 0.3]), None, "too few");
     }

@@ -47,14 +47,17 @@ pub(crate) fn is_energy_proved(case: &Case, options: &Options) -> bool {
     judged_energy(case, options) == Some(Verdict::Proved)
 }
 
-/// Verdict on the claim that the energy of the system is an integral. There is none where the file means another
-/// function by its name.
+/// Verdict on the claim that the energy of the system is an integral, also where the file gives its name to
+/// another function.
 fn judged_energy(case: &Case, options: &Options) -> Option<Verdict> {
-    let formula = case.formula(ENERGY).ok()?;
-    let symbol = formula.symbols().next()?;
-    let meaning = &case.model.vocabulary.entry(symbol).meaning;
-    matches!(meaning, Meaning::Quantity(Quantity::Energy))
-        .then(|| judged(case, formula, options))?
+    let energy = case.model.vocabulary.formula_of(Meaning::Quantity(Quantity::Energy))?;
+    judged(case, &energy, options)
+}
+
+/// Whether the name of the energy means another function in a file.
+pub(crate) fn has_other_energy(model: &Model) -> bool {
+    let own = model.vocabulary.find(ENERGY);
+    own.is_some_and(|own| !matches!(own.meaning, Meaning::Quantity(Quantity::Energy)))
 }
 
 /// Whether motions keep the energy. Where that is neither proved nor refuted, the energy is followed

@@ -1,6 +1,7 @@
 //! A single motion from start to end, and the drift of quantities that should be constant.
 
 use crate::error::FlowError;
+use crate::motion::kept::has_other_energy;
 use crate::motion::one_sided::{ContactEvent, follow};
 use crate::motion::recorded::{point, program};
 use crate::motion::samples::Samples;
@@ -342,12 +343,14 @@ fn sources(case: &Case) -> Vec<(String, QuantityRole, QuantitySource<'_>)> {
             (equation.text.clone(), QuantityRole::Level, QuantitySource::Level(&equation.function))
         })
         .collect();
+    let has_other = has_other_energy(model);
     if model.system.has_energy() {
-        sources.push(("energy".to_string(), QuantityRole::Energy, QuantitySource::Energy));
+        let name = if has_other { "energy of the system" } else { "energy" };
+        sources.push((name.to_string(), QuantityRole::Energy, QuantitySource::Energy));
     }
     for claim in &case.claims {
         let ClaimKind::Integral(integral) = &claim.kind else { continue };
-        let named_energy = claim.name == "energy" && model.system.has_energy();
+        let named_energy = claim.name == "energy" && model.system.has_energy() && !has_other;
         if integral.0.has_antiderivative() || named_energy {
             continue;
         }

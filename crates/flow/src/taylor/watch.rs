@@ -9,6 +9,7 @@ use std::sync::Arc;
 
 use crate::taylor::event::{Event, Sides, extremum, size, turns, value};
 use crate::taylor::number::SeriesNumber;
+use crate::taylor::quotients::Needed;
 use crate::taylor::shorten::known_part;
 use crate::taylor::stepper::Stepper;
 use liouville::graph::{Evaluator, Expr, Graph, Step, Tape};
@@ -177,14 +178,28 @@ impl Presence {
         let reached: Vec<Vec<bool>> =
             values.iter().map(|own| graph.reached(own.iter().copied())).collect();
         let (mut watched, mut arguments) = (Vec::new(), Vec::new());
+        let places: Vec<usize> = all.iter().map(|value| graph.place(*value)).collect();
+        // Quotients with limits have values where their divisors are 0.
+        let needed = Needed::exactly(graph, &places).places;
         for operation in graph.left_out(field, &all) {
             let place = graph.place(operation);
+            if !needed[place] {
+                continue;
+            }
             let formula = reached.iter().position(|reached| reached[place]);
             if let (Some(formula), Some((domain, argument))) =
                 (formula, Domain::of(graph.step(place)))
             {
                 watched.push(Watched { domain, formula });
                 arguments.push(graph.at(argument));
+            }
+        }
+        // x/√x is followed as √x, also where x is 0 for a while.
+        for place in 0..graph.len() {
+            let formula = reached.iter().position(|reached| reached[place]);
+            if let (Some(formula), Some(base)) = (formula, root_of_modulus(graph, place)) {
+                watched.push(Watched { domain: Domain::Positive, formula });
+                arguments.push(graph.at(base));
             }
         }
         let ends = values.iter().scan(0, |end, own| {
@@ -224,6 +239,15 @@ impl Presence {
     pub fn dimension(&self) -> usize {
         self.names.len()
     }
+}
+
+/// Base of the root that the step at a place divides by, if it contains a modulus.
+fn root_of_modulus(graph: &Graph, place: usize) -> Option<usize> {
+    let Step::Unary(UnaryFunction::Recip, root) = graph.step(place) else { return None };
+    let Step::Unary(UnaryFunction::Sqrt, base) = graph.step(root) else { return None };
+    let parts = graph.reached_from(&[base]);
+    let is_modulus = |place: usize| matches!(graph.step(place), Step::Unary(UnaryFunction::Abs, _));
+    (0..graph.len()).any(|place| parts[place] && is_modulus(place)).then_some(base)
 }
 
 /// Time within a piece at which a divisor that does not change its sign comes as near to 0 as it may be

@@ -13,7 +13,8 @@ use super::course::Course;
 use super::division::DIVISIONS;
 use super::enclosure::{Enclosure, raised};
 use super::forward::Cloud;
-use super::motion::Boxed;
+use super::functions::Functions;
+use super::motion::{Boxed, EnclosedPassage};
 use super::shooting::{combined, times};
 use super::{LEAST_RADIUS, MOST_UNKNOWNS, Obstacle, OrbitSearch, Request, prepared};
 
@@ -42,6 +43,11 @@ pub fn is_alone(
     let (shooting, _) = prepared(request, &state)?;
     let most = MOST_UNKNOWNS / request.model.dimension().max(1);
     let Request { model, start, period, .. } = request;
+    // Of orbits of a family with the period stated nothing else is known.
+    let is_late = (found.1.mid - request.period).abs() > unit + found.1.rad;
+    if !is_late && is_family(request, &shooting.functions) {
+        return Ok(false);
+    }
     for division in DIVISIONS {
         let nodes = division.nodes(&shooting.motion, model, start, *period, most);
         let search = match nodes
@@ -70,27 +76,48 @@ pub fn is_alone(
         };
         let offsets = others.as_ref().map_or_else(|| offsets.clone(), sum);
         let course = Course { search: &search, offsets: &offsets, radii: &offsets };
-        // Of orbits of a family with the period stated nothing else is known.
         let shift = (nodes.period - request.period).abs();
-        let is_late = (found.1.mid - request.period).abs() > unit + found.1.rad;
         let differs = |image: f64| 1.01 * (image + unit + ROUNDING * nodes.period) < shift;
         let speed = search.frames.phase.iter().map(|x| x * x).sum::<f64>().sqrt();
         let sides = WIDER.iter().map(|wider| wider * reach);
         let sides = sides.chain(WIDE.iter().map(|share| share * speed * late));
-        let alone = sides.filter(|side| *side >= reach).any(|side| {
+        let mut sides: Vec<f64> = sides.filter(|side| *side >= reach).collect();
+        sides.sort_by(f64::total_cmp);
+        let period = offsets.len() - 1;
+        let mut alone = false;
+        for side in sides {
             let mut radii = vec![side; offsets.len()];
-            radii[offsets.len() - 1] = late;
-            let images = course
-                .images(&radii)
-                .filter(|images| images.iter().zip(&radii).all(|(image, radius)| image < radius));
-            let is_other = |images: &Vec<f64>| images.last().copied().is_some_and(differs);
-            images.is_some_and(|images| family.is_none() || is_late && is_other(&images))
-        });
+            radii[period] = late;
+            let Some(images) = course.images(&radii) else { break };
+            let is_inside = images.iter().zip(&radii).all(|(image, radius)| image < radius);
+            let is_other = || family.is_none() || differs(images[period]);
+            if is_inside && is_other() {
+                alone = true;
+                break;
+            }
+            // What wider boxes add to themselves is more than what they are wider by.
+            let grows =
+                |(image, offset): (&f64, &f64)| (image - offset).is_nan() || image - offset >= side;
+            if late <= side && images[..period].iter().zip(&offsets).any(grows) {
+                break;
+            }
+        }
         if alone {
             return Ok(true);
         }
     }
     Ok(false)
+}
+
+/// Whether the value of a conserved function is the same for all orbits that count.
+fn is_stated(request: &Request<'_>, functions: &Functions, index: usize) -> bool {
+    index < functions.of_level
+        || index == functions.of_level && request.keeps_energy && request.energy.is_some()
+}
+
+/// Whether orbits with other values of conserved functions count.
+fn is_family(request: &Request<'_>, functions: &Functions) -> bool {
+    !functions.used().iter().all(|index| is_stated(request, functions, *index))
 }
 
 impl OrbitSearch<'_> {
@@ -99,11 +126,7 @@ impl OrbitSearch<'_> {
     fn family(&self, request: &Request<'_>, first: f64) -> Option<Boxed> {
         let Self { shooting, nodes, .. } = self;
         let functions = &shooting.functions;
-        let is_stated = |index: usize| {
-            index < functions.of_level
-                || index == functions.of_level && request.keeps_energy && request.energy.is_some()
-        };
-        if functions.used().iter().all(|index| is_stated(*index)) {
+        if !is_family(request, functions) {
             return None;
         }
         let first: Boxed = nodes.states[0].iter().map(|x| Enclosure::about(*x, first)).collect();
@@ -115,7 +138,11 @@ impl OrbitSearch<'_> {
             let across =
                 slope.iter().zip(sides.clone()).map(|(slope, side)| slope.magnitude() * side);
             let size = gap.magnitude() + across.sum::<f64>();
-            let size = if is_stated(*index) { 0.0 } else { raised(size, slope.len() + 2) };
+            let size = if is_stated(request, functions, *index) {
+                0.0
+            } else {
+                raised(size, slope.len() + 2)
+            };
             Enclosure::about(0.0, size)
         };
         let changes: Boxed = functions.used().iter().zip(&gaps).zip(&slopes).map(change).collect();
@@ -205,23 +232,33 @@ impl OrbitSearch<'_> {
         let middles = middles?;
         let size = nodes.states.iter().flatten().fold(0.0, |a: f64, x| a.max(x.abs()));
         let least = first.max(LEAST_RADIUS * size);
-        // Passages from boxes that are foreseen to hold the tube, all at once.
-        ROOMS.iter().find_map(|room| {
-            let starts = about(room * least);
-            let passages: Option<Vec<_>> = motion.passages(&starts, &steps).into_iter().collect();
+        let gap = |index: usize| -> (Boxed, &Vec<f64>) {
+            let target = &nodes.states[(index + 1) % nodes.states.len()];
+            let ends = middles[index].end.iter().zip(target);
+            (ends.map(|(x, y)| *x - Enclosure::exact(*y)).collect(), target)
+        };
+        let tube = |passages: &[EnclosedPassage], rooms: Option<&[Boxed]>| {
             let (mut cloud, mut largest) = (Cloud::about(&about(first)[0]), first);
-            for (index, passage) in passages?.iter().enumerate() {
+            for (index, passage) in passages.iter().enumerate() {
                 let hull = cloud.hull();
-                if !hull.iter().zip(&starts[index]).all(|(x, room)| x.is_within(*room)) {
+                let fits = |room: &Boxed| hull.iter().zip(room).all(|(x, room)| x.is_within(*room));
+                if rooms.is_some_and(|rooms| !fits(&rooms[index])) {
                     return None;
                 }
-                let target = &nodes.states[(index + 1) % nodes.states.len()];
-                let ends = middles[index].end.iter().zip(target);
-                let gap: Boxed = ends.map(|(x, y)| *x - Enclosure::exact(*y)).collect();
+                let (gap, target) = gap(index);
                 cloud = cloud.moved(passage, &gap, target)?;
                 largest = cloud.hull().iter().fold(largest, |a, x| a.max(x.rad));
             }
             Some(largest)
+        };
+        // By the derivatives at the nodes alone, what no room can do without.
+        let foreseen = tube(&middles, None)?;
+        // Passages from boxes that are foreseen to hold the tube, all at once.
+        let rooms = ROOMS.iter().map(|room| room * least).filter(|room| *room >= foreseen);
+        rooms.into_iter().find_map(|room| {
+            let starts = about(room);
+            let passages: Option<Vec<_>> = motion.passages(&starts, &steps).into_iter().collect();
+            tube(&passages?, Some(&starts))
         })
     }
 }

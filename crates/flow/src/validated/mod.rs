@@ -35,18 +35,21 @@ mod tests;
 
 pub use alone::is_alone;
 pub use enclosure::Enclosure;
+pub(crate) use enclosure::raised as raised_sum;
 pub use forward::{Reached, follow};
 pub use horseshoe::{HorseshoeTrace, Margin, ProvedHorseshoe, prove as prove_horseshoe};
+pub(crate) use krawczyk::Inverse;
 pub use least::Doubt;
 pub use obstacle::Obstacle;
 pub use replay::{CoveringSet, HorseshoeData, ProofData, replay, replay_horseshoe};
 pub use request::Request;
+pub(crate) use shooting::combined;
 
 use course::Course;
 use division::DIVISIONS;
 use functions::Functions;
 use guess::Nodes;
-use krawczyk::{Inverse, is_regular};
+use krawczyk::is_regular;
 use motion::{Boxed, EnclosedMotion, EnclosedPassage, ORDER};
 use nearby::Nearby;
 use request::moved;

@@ -4,5 +4,6 @@ mod branches;
 mod closed_orbits;
 mod exponents;
 mod integration;
+mod map_points;
 mod motion;
 mod reaches;

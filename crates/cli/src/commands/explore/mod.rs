@@ -12,6 +12,7 @@ mod growth;
 pub(super) mod ink;
 mod iterates;
 mod map_exponents;
+mod map_points;
 pub(super) mod motion;
 mod orbit;
 pub(super) mod output;
@@ -108,12 +109,13 @@ Examples:
   liouville motion chart figures/fig-8 --x c1=0..2 --y c2=0..2 --colour exponent --out chart.pdf
   liouville motion chart figures/fig-8 --x c1=0..2 --y c2=0..2 --part 3/40 --out parts/")]
     Chart(chart::ChartArgs),
-    /// Find closed orbits, with multipliers and error estimates
+    /// Find closed orbits, or periodic points of a map, with multipliers and error estimates
     #[command(after_help = "\
 Examples:
   liouville motion periodic figures/fig-5 --start pi/2,0
   liouville motion periodic classical/flows/van-der-pol-cycle --start 2,0 --section 'p = 0'
-  liouville motion periodic figures/fig-A2 --symmetric L=0,l=0,l=pi/2 --period 4")]
+  liouville motion periodic figures/fig-A2 --symmetric L=0,l=0,l=pi/2 --period 4
+  liouville motion periodic classical/maps/henon --set s=0.63 --set b=0.3 --period 4 --box x=-2..2 --box y=-2..2")]
     Periodic(periodic::Periodic),
     /// Follow a closed orbit while a parameter or the energy varies, through folds, and find its
     /// bifurcations

@@ -14,7 +14,7 @@ use super::fixing::integrals;
 use super::motion::{MotionArgs, SectionPlaneArgs, Threads, parse_number};
 use super::starts::{GivenStart, Starts, misfit};
 use super::surface::read_surface;
-use super::{CommandOutput, Progress, symmetric};
+use super::{CommandOutput, Progress, map_points, symmetric};
 
 /// Case, section and start of a closed orbit.
 #[derive(Debug, Args)]
@@ -59,6 +59,11 @@ pub struct Periodic {
     /// Leave the proof out, and report what is computed
     #[arg(long, conflicts_with = "prove")]
     pub numerical: bool,
+    /// Of a map: find all points of the period in a box, NAME=a..b for each component whose range is not
+    /// that of [state]
+    #[arg(long = "box", value_name = "NAME=A..B", conflicts_with_all = ["start", "starts"],
+        allow_hyphen_values = true)]
+    pub ranges: Vec<String>,
     #[command(flatten)]
     pub threads: Threads,
 }
@@ -76,7 +81,15 @@ impl Periodic {
 
 pub fn run(options: &Periodic) -> Result<CommandOutput, String> {
     let search = &options.search;
+    if search.subject.reads_map()? {
+        return map_points::run(options);
+    }
     let case = search.subject.open()?;
+    if !options.ranges.is_empty() {
+        return Err("error: --box: closed orbits of a flow are found from a start\n\
+                    help: give --start with a state near the orbit; all points in a box are those of a map"
+            .to_string());
+    }
     if case.model.system.has_arbitrary_function() {
         return Err(search.subject.told(&FlowError::Arbitrary));
     }

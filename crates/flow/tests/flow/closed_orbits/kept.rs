@@ -70,3 +70,13 @@ fn functions_that_jump_along_a_motion_are_not_kept() {
     assert_ne!(springs("z + (√((x - 3/2)²) - (x - 3/2))*x/1000 + 0*√(x - 3/2)"), Verdict::Proved);
     assert_eq!(springs("z"), Verdict::Proved);
 }
+
+#[test]
+fn the_energy_is_kept_also_where_its_name_means_another_function() {
+    let own = judged(
+        "title = 'x'\n[state]\nq = '-2..2'\np = '-2..2'\n[let]\nenergy = 'q'\n[hamiltonian]\n\
+         function = 'p²/2 + q²/2 + q⁴/4'\npairs = [['q', 'p']]\n[[claim]]\nclosed-orbit = 4.768022\n\
+         state = { q = '1', p = '0' }\n",
+    );
+    assert_eq!(own.verdict, Verdict::Proved, "{:?}", own.evidence.reason);
+}

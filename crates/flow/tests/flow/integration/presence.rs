@@ -54,6 +54,19 @@ fn roots_may_touch_what_quotients_may_not() {
 }
 
 #[test]
+fn quotients_with_limits_have_values_and_quotients_by_roots_that_vanish_have_none() {
+    for precision in [Precision::Float, Precision::Pair] {
+        for rate in ["0*(sin(x)/x)", "sin(x)/x*0", "0*(1/(sin(x)/x))", "√(max(x, 0))"] {
+            assert_eq!(end(rate, "x=-1/2 y=1", 1.0, precision), None, "{rate}");
+        }
+        for rate in ["max(x, 0)/√(max(x, 0))", "0*(sin(x)/x) + 0/x"] {
+            let (found, _) = end(rate, "x=1/2 y=1", -1.0, precision).expect(rate);
+            assert!((found + 0.5).abs() < 1e-7, "{rate}: {found}");
+        }
+    }
+}
+
+#[test]
 fn starts_without_a_value_are_told_by_their_formula() {
     for rate in [
         "1/x",
