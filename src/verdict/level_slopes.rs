@@ -76,18 +76,25 @@ impl Judging<'_> {
                 found.push(FlatEquation { index, is_lost: true, near: None });
                 continue;
             }
-            if self.are_independent_one_by_one(&chosen, &kept)?
-                || rank_of(kept.len())? == CellRank::Full
-            {
+            if self.are_independent_one_by_one(&chosen, &kept)? {
                 continue;
             }
-            for (before, index) in kept.iter().enumerate() {
-                let rank = rank_of(before + 1)?;
-                if rank != CellRank::Full {
-                    let is_lost = rank == CellRank::Drops;
-                    found.push(FlatEquation { index: *index, is_lost, near: None });
-                    break;
+            let whole = rank_of(kept.len())?;
+            if whole == CellRank::Full {
+                continue;
+            }
+            // The first of independent equations are independent: the first of those that depend is found by halves.
+            let (mut independent, mut dependent) = (0, (kept.len(), whole));
+            while dependent.0 - independent > 1 {
+                let middle = usize::midpoint(independent, dependent.0);
+                match rank_of(middle)? {
+                    CellRank::Full => independent = middle,
+                    other => dependent = (middle, other),
                 }
+            }
+            if let (Some(index), rank) = (kept.get(independent), dependent.1) {
+                let is_lost = rank == CellRank::Drops;
+                found.push(FlatEquation { index: *index, is_lost, near: None });
             }
         }
         Ok(found)
