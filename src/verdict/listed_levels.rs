@@ -42,7 +42,8 @@ pub(super) fn judge_each_listed(
             continue;
         };
         let holds = is_held(report.verdict);
-        let lists = match holds || !split.is_empty() && report.verdict == Verdict::Refuted {
+        let may_hold = matches!(report.verdict, Verdict::Refuted | Verdict::Undecided);
+        let lists = match holds || !split.is_empty() && may_hold {
             true => lists_of(case, claim, split),
             false => Vec::new(),
         };
@@ -71,7 +72,7 @@ pub(super) fn judge_each_listed(
                 lists.iter().filter_map(|list| Some((list, choice[list.draw].as_ref()?))).collect();
             let named = named(case, &values);
             match judged(case, options, claim, &values) {
-                // What is refuted for positive bases may hold for all.
+                // What is refuted for positive bases, or has a value for none, may hold for all.
                 Ok(one) if is_held(one.verdict) && !holds && index == 0 => {
                     judged_values.push((named, one.evidence.clone()));
                     *report = one;

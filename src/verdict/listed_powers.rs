@@ -28,7 +28,8 @@ impl Judging<'_> {
         status: &ClaimState,
     ) -> Result<SplitDraws, JudgeError> {
         let asks_images = |own: &Condition| matches!(own.need, Need::OneToOne { .. });
-        let says_nothing = status.is_silent || status.is_void || status.is_unseen;
+        let says_nothing =
+            status.undefined.is_some() || status.is_silent || status.is_void || status.is_unseen;
         let is_about_all = status.holds()
             || says_nothing
             || status.settled.is_some()

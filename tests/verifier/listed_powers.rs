@@ -174,3 +174,15 @@ fn exponents_that_are_one_number_for_all_listed_values_take_any_base() {
         assert_eq!(found, [Verdict::Proved; 2], "{exponent}: for a > 0 alone");
     }
 }
+
+#[test]
+fn powers_of_negative_numbers_have_values_for_listed_whole_exponents() {
+    let text = "title = 't'\ncheck-weights = false\n[parameters]\nn = 'one of 2, 3'\n[state]\nx = '-2..2'\ny = '0.1..2'\n\
+                [field]\n\"x'\" = '1'\n\"y'\" = 'x^n'\n[[claim]]\nidentity = '(-1)^n = 5 - 2*n'\n\
+                [[claim]]\nidentity = '(-y)^n = (5 - 2*n)*y^n'\n[[claim]]\nidentity = '(-1)^n = 2*n - 5'\nexpect = 'open'\n";
+    let case = Case::parse(text, &[]).expect("a case");
+    let report = judge(&case, &Options::default()).expect("judged");
+    assert!(report.warnings.is_empty(), "each number has a motion: {:?}", report.warnings);
+    let found: Vec<Verdict> = report.claims.iter().map(|claim| claim.verdict).collect();
+    assert_eq!(found, [Verdict::Proved, Verdict::Proved, Verdict::Refuted]);
+}
