@@ -49,7 +49,7 @@ impl BoxReport<'_> {
         );
         let mut seen: Vec<&MapPoint> = Vec::new();
         for point in &found.points {
-            if seen.iter().any(|own| is_on(own, &point.cycle[0])) {
+            if seen.iter().any(|own| self.is_on(own, point)) {
                 continue;
             }
             seen.push(point);
@@ -82,18 +82,26 @@ impl BoxReport<'_> {
         rendered(&root)
     }
 
+    /// Whether a point is the one of those in the box that is next to some point of a cycle.
+    fn is_on(&self, cycle: &MapPoint, point: &MapPoint) -> bool {
+        let distance = |own: &MapPoint, at: &[f64]| {
+            let apart = own.cycle[0].iter().zip(at).map(|(x, y)| (x - y).abs());
+            apart.fold(0.0, f64::max)
+        };
+        let is_inside = |at: &&Vec<f64>| {
+            at.iter().zip(&self.of.ends).all(|(x, [low, high])| low <= x && x <= high)
+        };
+        let is_next = |at: &Vec<f64>| {
+            let own = distance(point, at);
+            self.found.points.iter().all(|other| own <= distance(other, at))
+        };
+        cycle.period == point.period && cycle.cycle.iter().filter(is_inside).any(is_next)
+    }
+
     /// Whether all points of the period in the box are known, and proved.
     fn is_complete(&self) -> bool {
         self.found.open.is_empty() && self.found.points.iter().all(|point| point.proof.is_ok())
     }
-}
-
-/// Whether a state is one of the points of a cycle.
-fn is_on(point: &MapPoint, state: &[f64]) -> bool {
-    let is_near = |own: &Vec<f64>| {
-        own.iter().zip(state).all(|(x, y)| (x - y).abs() <= 1e-9 * x.abs().max(1.0))
-    };
-    point.cycle.iter().any(is_near)
 }
 
 /// Renders a point in a few lines; `asked` is the period that was asked for.

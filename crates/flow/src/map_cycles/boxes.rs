@@ -116,7 +116,7 @@ fn are_apart((a, r): (&[f64], &[f64]), (b, s): (&[f64], &[f64])) -> bool {
 }
 
 /// Whether two boxes hold the same point.
-fn are_one(search: &mut PointSearch<'_>, a: &PointBox, b: &PointBox) -> bool {
+pub fn are_one(search: &mut PointSearch<'_>, a: &PointBox, b: &PointBox) -> bool {
     let (a, b) = ((&a.middle[..], &a.radii[..]), (&b.middle[..], &b.radii[..]));
     if are_apart(a, b) {
         return false;

@@ -86,8 +86,11 @@ pub fn map_point(
 ) -> Result<MapPoint, PointDoubt> {
     let map = EnclosedMap::new(model, parameters)?;
     let not_found = || PointDoubt::NotFound(period);
-    let at = PointSearch::new(&map, period).improved(start).ok_or_else(not_found)?;
-    described(&map, &at, period).ok_or_else(not_found)
+    let mut search = PointSearch::new(&map, period);
+    let at = search.improved(start).ok_or_else(not_found)?;
+    let own = search.proved(&at);
+    let found = own.as_ref().map(|(point, _)| point);
+    described(&map, (&at, found), period).ok_or_else(not_found)
 }
 
 /// Finds all periodic points in a box, as far as it can be divided.
@@ -98,16 +101,23 @@ pub fn map_points(
 ) -> Result<MapPoints, PointDoubt> {
     let map = EnclosedMap::new(model, parameters)?;
     let found = boxes::all(&mut PointSearch::new(&map, of.period), &of.ends);
-    let describe = |point: &PointBox| described(&map, &point.middle, of.period);
-    Ok(MapPoints {
-        points: found.points.iter().filter_map(describe).collect(),
-        open: found.open,
-        looked_at: found.looked_at,
-    })
+    let (mut points, mut open) = (Vec::new(), found.open);
+    for point in &found.points {
+        match described(&map, (&point.middle, Some(point)), of.period) {
+            Some(own) => points.push(own),
+            None => open.push((point.middle.clone(), point.radii.clone())),
+        }
+    }
+    Ok(MapPoints { points, open, looked_at: found.looked_at })
 }
 
-/// The point near a state with its cycle, its least period, its multipliers and its proof.
-fn described(map: &EnclosedMap, at: &[f64], period: usize) -> Option<MapPoint> {
+/// The point near a state, or the one in a box that holds no other, with its cycle, its least period, its multipliers and
+/// its proof.
+fn described(
+    map: &EnclosedMap,
+    (at, found): (&[f64], Option<&PointBox>),
+    period: usize,
+) -> Option<MapPoint> {
     let mut search = PointSearch::new(map, period);
     let still = vec![0.0; at.len()];
     let size = at.iter().fold(1.0, |a: f64, x| a.max(x.abs()));
@@ -117,14 +127,30 @@ fn described(map: &EnclosedMap, at: &[f64], period: usize) -> Option<MapPoint> {
         period.is_multiple_of(*count)
             && pairs.clone().all(|(x, y)| (x.mid - y).abs() <= BACK * size)
     };
-    let back = (1..=period).find(is_back);
-    let period = back.unwrap_or(period);
+    // A point of a smaller period is this one if it lies in its box, however near others are.
+    let mut shorter = (1..period).filter(is_back).filter_map(|count| {
+        let mut part = PointSearch::new(map, count);
+        let near = part.improved(at)?;
+        let proved = part.proved(&near);
+        let is_same = match (found, &proved) {
+            (Some(own), Some((point, _))) => boxes::are_one(&mut search, own, point),
+            (Some(_), None) => false,
+            (None, _) => true,
+        };
+        is_same.then_some((count, near, proved))
+    });
+    let shorter = shorter.next();
+    let (period, at, proved) = match shorter {
+        Some(own) => own,
+        None => {
+            let proved = search.proved(at);
+            if proved.is_none() && !is_back(&period) {
+                return None;
+            }
+            (period, at.to_vec(), proved)
+        }
+    };
     search.period = period;
-    let at = search.improved(at)?;
-    let proved = search.proved(&at);
-    if proved.is_none() && back.is_none() {
-        return None;
-    }
     let is_least = proved.as_ref().is_some_and(|(_, moved)| is_least(moved, period));
     let slopes = match &proved {
         Some((_, moved)) => moved.iterated.slopes.clone()?,
