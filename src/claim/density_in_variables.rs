@@ -8,6 +8,7 @@ use crate::formula::Formula;
 use crate::graph::{Expr, literally};
 use crate::mechanics::calculus::DualPoint;
 use crate::mechanics::elimination::determinant;
+use crate::number::UnaryFunction;
 use crate::scalar::Scalar;
 
 /// The claim that the measure ρ dy is invariant: v(ln ρ) + Σ ∂y'_i/∂y_i = 0.
@@ -43,8 +44,9 @@ impl Statement for DensityInVariables {
     fn conditions(&self, jet: &DualPoint<'_, Expr>, _: &[bool]) -> Vec<Condition> {
         let variables = of(jet.phase.model());
         let density = jet.in_variables(variables).phase.scalar(&self.0);
+        // A fold of the new variables changes the sign of the determinant, and not the measure.
         let measure = density * determinant(&jet.slopes_of_variables(variables));
-        vec![Condition::continuous(vec![measure], "the measure")]
+        vec![Condition::continuous(vec![measure.apply(UnaryFunction::Abs)], "the measure")]
     }
 
     /// 1/ρ, and 1/det dφ: dependent variables have no volume.

@@ -7,9 +7,10 @@ use super::conjugates::{SignChoices, columns_with_few_signs, with_all_signs};
 use super::coverage::{RANK_BITS, proved_rank};
 use super::judging::Judging;
 use super::sampler::Sampler;
-use crate::graph::{Evaluator, Expr, Fault, Graph, Tape, literally, record};
+use crate::graph::{Evaluator, Expr, Fault, Graph, Step, Tape, literally, record};
 use crate::mechanics::combinations;
 use crate::mechanics::elimination::{characteristic_polynomial, gram, gram_determinant};
+use crate::number::UnaryFunction;
 use crate::number::arb::{Approximation, ArbBall};
 use crate::number::rational::Rational;
 use crate::proof::{Group, Prover, Zeros, is_missing, is_nowhere_zero};
@@ -40,6 +41,8 @@ pub enum RankQuestion {
 
 /// Largest number of operations of a sum of squared minors that is looked at on each cell of signs.
 const MOST_OPERATIONS: usize = 1 << 12;
+/// Number of roots from which on this number is halved for each one more.
+const FEW_ROOTS: usize = 2;
 
 /// A matrix as a function of the draws, with what exists and is not negative at the states.
 pub struct DrawnMatrix<'a> {
@@ -125,7 +128,13 @@ impl Judging<'_> {
             Some((sum_of_squared_minors(rows, matrix.rank), one, group))
         })?;
         let Some((value, one, group)) = found else { return Ok(CellRank::Unknown) };
-        if made.operations(&[value]) > MOST_OPERATIONS {
+        // Where roots contain one another each cell takes long.
+        let reached = made.reached([value]);
+        let is_root = |(step, reached): &(Step<'_>, bool)| {
+            *reached && matches!(step, Step::Unary(UnaryFunction::Sqrt, _))
+        };
+        let roots = made.steps().zip(reached).filter(is_root).count();
+        if made.operations(&[value]) > MOST_OPERATIONS >> roots.saturating_sub(FEW_ROOTS) {
             return Ok(CellRank::Unknown);
         }
         let prover = Prover { sources: &sources, extents: &extents, seed: self.options.seed };

@@ -20,6 +20,9 @@ const MOST: usize = 64;
 /// The same for searches along orbits.
 const MOST_ORBITS: usize = 8;
 
+/// Largest number of listed values that a remark names.
+const MOST_NAMED: usize = 8;
+
 /// A case with one value in place of each list.
 pub struct ListedCase {
     /// The case.
@@ -60,15 +63,26 @@ pub fn first_values(case: &Case) -> Option<String> {
     }
 }
 
-/// Takes the listed values for which there is no motion out of a case, and names them in a remark; `None` if
-/// there are none, or no others.
+/// Takes the listed values for which there is no motion out of a case, and names them in a remark with combinations of
+/// others for which there is none; `None` if there is motion for all, or for none.
 pub fn with_motion(case: &Case) -> Option<(Case, String)> {
     let mut moving = case.clone();
     let left_out = moving.model.leave_out_values_without_motion();
     let name = |(place, value): &(usize, Rational)| {
         format!("{} = {value}", case.model.parameters[*place].name)
     };
-    let names: Vec<String> = left_out.iter().map(name).collect();
+    let mut names: Vec<String> = left_out.iter().map(name).collect();
+    let still = moving.model.choices_without_motion();
+    if still.len() < all_choices(&moving) {
+        let joined =
+            |choice: &ListedValues| choice.iter().map(name).collect::<Vec<String>>().join(" and ");
+        names.extend(still.iter().map(joined));
+    }
+    if names.len() > MOST_NAMED {
+        let more = names.len() - MOST_NAMED;
+        names.truncate(MOST_NAMED);
+        names.push(format!("{more} more"));
+    }
     (!names.is_empty()).then(|| {
         let remark = format!(
             "nothing is said for {}, where the equations of motion have no value",
@@ -76,6 +90,12 @@ pub fn with_motion(case: &Case) -> Option<(Case, String)> {
         );
         (moving, remark)
     })
+}
+
+/// Number of the choices of listed values of scalars.
+fn all_choices(case: &Case) -> usize {
+    let count = |(_, values): (usize, Option<Vec<Rational>>)| values.map_or(1, |own| own.len());
+    lists(case).into_iter().map(count).product()
 }
 
 /// Lists the cases with each combination of listed values for which there is motion; `None` if these are many, or

@@ -82,11 +82,15 @@ impl Lagrangian {
         };
         let own = self.symbolic_masses(model, &velocities);
         let is_nowhere_singular = |own: &RecordedMasses| {
-            let is_nowhere_singular_at = |kept: &Vec<bool>| {
-                let at = (model, chart, &kept[..]);
+            let is_nowhere_singular_at = |kept: &[bool]| {
+                let at = (model, chart, kept);
                 own.are_definite(at, free) || own.are_nowhere_zero(at, free)
             };
-            places.iter().all(is_nowhere_singular_at)
+            // What holds in all of space holds on the level, but that a chart of the file leaves the ranges.
+            let space = vec![false; level.len()];
+            own.is_small()
+                && is_nowhere_singular_at(&space)
+                && (!matches!(chart, Chart::Given(_)) || is_nowhere_singular_at(&level))
         };
         let is_indefinite = |own: &RecordedMasses| {
             own.are_indefinite((model, chart, &level), free, velocities.len())
@@ -102,18 +106,14 @@ impl Lagrangian {
         let is_known = own.as_ref().is_ok_and(is_regular);
         let of_many = AccelerationSolver { is_exact: false, ..AccelerationSolver::ELIMINATION };
         let elimination = AccelerationSolver { is_known, ..of_many };
-        if self.constraints.is_empty() {
+        if is_known || self.constraints.is_empty() {
             return elimination;
         }
-        // A mass may be 0 at a limit, or at a rest, though the motion is determined there by the constraints.
         let solver = AccelerationSolver { with_slopes: true, ..of_many };
         let with_slopes = Self { solver, ..self.clone() };
         let is_known_with_slopes =
             with_slopes.symbolic_masses(model, &velocities).is_ok_and(|own| is_regular(&own));
-        match is_known && !is_known_with_slopes {
-            true => elimination,
-            false => AccelerationSolver { is_known: is_known_with_slopes, ..solver },
-        }
+        AccelerationSolver { is_known: is_known_with_slopes, ..solver }
     }
 
     /// Records masses and divisors in the symbols of parameters and state, as the equations of motion are: a mass that

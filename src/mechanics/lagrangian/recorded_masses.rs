@@ -14,6 +14,8 @@ use crate::scalar::Scalar;
 const STATES: usize = 16;
 /// Largest number of velocities of which the signs are looked at.
 const MOST_VELOCITIES: usize = 32;
+/// Largest number of operations of divisors that are bounded everywhere.
+const MOST_OPERATIONS: usize = 1 << 11;
 /// Seed of the proofs that leading minors are not 0.
 const SEED: u64 = 1;
 
@@ -32,6 +34,11 @@ pub struct RecordedMasses {
 }
 
 impl RecordedMasses {
+    /// Whether bounds of the divisors take little time.
+    pub fn is_small(&self) -> bool {
+        self.graph.operations(&self.divisors) <= MOST_OPERATIONS
+    }
+
     /// Whether all divisors are known to be 0 on no open set of states of a place, for each choice of listed values.
     pub fn are_regular_at(&self, place: (&Model, &Chart, &[bool]), free: &[Draw]) -> bool {
         let (model, chart, kept) = place;
@@ -47,9 +54,9 @@ impl RecordedMasses {
     /// choice of listed values.
     pub fn are_nowhere_zero(&self, place: (&Model, &Chart, &[bool]), free: &[Draw]) -> bool {
         self.all_choices(place, free, |drawn, extents, facts| {
-            let is_nonzero = |divisor: &Expr| {
-                drawn.graph.constant_value(*divisor).is_some_and(|value| !value.is_zero())
-                    || is_nowhere_zero(&drawn.graph, extents, facts, &[*divisor])
+            let is_nonzero = |divisor: &Expr| match drawn.graph.constant_value(*divisor) {
+                Some(value) => !value.is_zero(),
+                None => is_nowhere_zero(&drawn.graph, extents, facts, &[*divisor]),
             };
             drawn.divisors.iter().all(is_nonzero)
         })

@@ -169,7 +169,7 @@ pub fn survey(
         return Err(JudgeError::Discrete);
     }
     if let Some((moving, remark)) = lists::with_motion(case) {
-        let found = survey(&moving, options, halt, progress)?;
+        let found = of_each_value(&moving, options, halt, progress)?;
         return Ok(Survey {
             description: Description::of(case),
             parameters: words::parameters(case),
@@ -177,6 +177,16 @@ pub fn survey(
             ..found
         });
     }
+    of_each_value(case, options, halt, progress)
+}
+
+/// Surveys what holds for all values of the parameters, and the places in the hierarchy for each of listed ones.
+fn of_each_value(
+    case: &Case,
+    options: &Options,
+    halt: &Halt,
+    progress: &mut dyn FnMut(&str),
+) -> Result<Survey, JudgeError> {
     let mut found = of_all_values(case, options, halt, progress)?;
     let places = by_value::places(case, &mut |own, values| {
         let progress = &mut |part: &str| progress(&format!("{part}, for {values}"));
