@@ -58,10 +58,10 @@ impl Phase<'_, Expr> {
     /// more, so that all that is written is asked then.
     pub fn hidden_in_motion(&self, written: &[Expr]) -> Vec<Expr> {
         let system = &self.model().system;
-        // Where elimination may divide by 0, the states there count nevertheless if the determinant of the masses and
-        // constraints is not 0.
+        // Where elimination may divide by 0 on an open set, the states there count nevertheless if the determinant
+        // of the masses and constraints is not 0.
         if let System::Lagrangian(own) = system
-            && !own.has_exact_divisors()
+            && !own.has_known_divisors()
         {
             let mut hidden = left_out(written, &inverses(own.determinants(self)));
             if has_moduli(written) {

@@ -9,7 +9,7 @@ use super::recorded::RecordedClaim;
 use super::sampler::Sampler;
 use crate::claim::LevelSubset;
 use crate::graph::{Expr, Fault, Graph, Need, record};
-use crate::mechanics::{Chart, combinations};
+use crate::mechanics::{Chart, System, combinations};
 use crate::proof::{Extent, are_coprime, is_nowhere_zero, sign};
 
 /// A cofactor, or a part of it that must have a value.
@@ -66,7 +66,11 @@ impl Judging<'_> {
         let moves =
             |pole: &Expr| self.graph.inputs_of(*pole).into_iter().any(|input| input >= parameters);
         let mut poles = poles_of(self.graph, &[cofactor.factor]);
-        let of_field = poles_of(self.graph, &self.common.required_at(sampler.kept()));
+        // Elimination of many velocities divides by what may be 0 on a surface that motions cross.
+        let of_field = match &self.case.model.system {
+            System::Lagrangian(own) if !own.has_exact_divisors() => Vec::new(),
+            _ => poles_of(self.graph, &self.common.required_at(sampler.kept())),
+        };
         let misses_some = !sampler.misses_nothing(self.case);
         // In space a pole in other variables than F is not 0 wherever F is.
         let of_function = self.graph.inputs_of(function);
@@ -74,8 +78,16 @@ impl Judging<'_> {
             let own = self.graph.inputs_of(*pole).into_iter().filter(|input| *input >= parameters);
             own.into_iter().all(|input| !of_function.contains(&input))
         };
+        // A pole that is 0 on all of F = 0 is none of a motion from there.
+        let has_other_zeros = |pole: &Expr| {
+            let both = [function, *pole];
+            *pole != function
+                && (!is_rational(self.graph, &both)
+                    || are_coprime(self.graph, &both, self.options.seed))
+        };
+        let may_miss = misses_some && cofactor.inverse.is_some();
         let is_of_field = |pole: &Expr| {
-            *pole != function && of_field.contains(pole) && (misses_some || is_apart(pole))
+            of_field.contains(pole) && (is_apart(pole) || may_miss && has_other_zeros(pole))
         };
         poles.retain(|pole| (moves(pole) || !misses_some) && !is_of_field(pole));
         // What is under a root may be negative where F = 0: the cofactor then says nothing of F = 0.
@@ -164,6 +176,12 @@ impl Judging<'_> {
         let answers = PrimeFieldStates::new(self, space).test(&[query])?;
         Ok(matches!(answers[..], [Answer::Zero(_)]))
     }
+}
+
+/// Whether values contain sums, products and quotients alone.
+fn is_rational(graph: &Graph, values: &[Expr]) -> bool {
+    let reached = graph.reached(values.iter().copied());
+    graph.steps().zip(reached).all(|(step, reached)| !reached || step.is_rational())
 }
 
 /// Whether two values are known to have no common zero, and the first to have one.

@@ -335,6 +335,22 @@ fn a_vector_has_a_matrix_as_cofactor() {
         judged(["x/y + y/x", "0", "0"], "[x, y]", "[[1/y, 1/x], [0, 0]]"),
         Verdict::Undecided
     );
+    // The motion x = 0 passes y = 0, where the field divides by it.
+    for (function, cofactor) in [
+        ("[x, y]", "[[x/y, 0], [0, 1/y]]"),
+        ("[y, y]", "[[1/y, 0], [1/y, 0]]"),
+        ("y", "1/y"),
+        ("2*y", "1/y"),
+    ] {
+        let text = format!(
+            "title = 't'\n[state]\nx = '-2..2'\ny = '-2..2'\nz = '-2..2'\nw = '-2..2'\n[level]\nequations = ['z²+w²=1']\n\
+             [field]\nx = 'x²/y'\ny = '1'\nz = 'w'\nw = '-z'\n[[claim]]\ninvariant-relation = '{function}'\n\
+             cofactor = '{cofactor}'\nexpect = 'open'\n"
+        );
+        let case = Case::parse(&text, &[]).expect("a case");
+        let found = judge(&case, &Options::default()).expect("judged").claims[0].verdict;
+        assert_eq!(found, Verdict::Undecided, "{function}");
+    }
     let text = "title = 't'\n[state]\nx = '-2..2'\ny = '-2..2'\n[field]\nx = 'y'\ny = 'x'\n[[claim]]\n\
                 invariant-relation = '[x, y]'\ncofactor = '1'\n";
     let error = Case::parse(text, &[]).expect_err("a vector needs a matrix").to_string();

@@ -116,3 +116,21 @@ fn what_has_no_value_or_is_degenerate_is_not_proved() {
     let none = within(&map("x = '0..1'", "x = 'x² + 0.2501'"), &[[0.0, 1.0]], 1);
     assert!(none.points.is_empty() && none.open.is_empty(), "{none:?}");
 }
+
+#[test]
+fn cycles_smaller_than_1e_9_are_no_fixed_points() {
+    // x' = s − x²/s has the cycle 0, s and the fixed points s(−1 ± √5)/2.
+    for s in ["1e-12", "1e-9", "1"] {
+        let case = map("x = '-2..2'", &format!("x = '{s} - x²/{s}'"));
+        let size: f64 = s.parse().expect("a number");
+        let found = within(&case, &[[-2.0 * size, 2.0 * size]], 2);
+        let mut periods: Vec<usize> = found.points.iter().map(|point| point.period).collect();
+        periods.sort_unstable();
+        assert_eq!((periods, found.open.len()), (vec![1, 1, 2, 2], 0), "{s}");
+        for point in &found.points {
+            let image = size - point.cycle[0][0] * point.cycle[0][0] / size;
+            let next = &point.cycle[1 % point.period];
+            assert!((image - next[0]).abs() < 1e-12 * size, "{s}: {point:?}");
+        }
+    }
+}

@@ -81,6 +81,7 @@ pub use coordinates::components;
 use liouville::case::{Case, PlacedClaim};
 use liouville::claim::Claim;
 use liouville::mechanics::System;
+use liouville::verdict::{Verdict, judge};
 
 /// Largest number of combinations of listed values that are treated one by one.
 const MOST_LISTED: usize = 8;
@@ -130,7 +131,15 @@ pub fn conditions(
             let before = told(report);
             by_values(case, Some(claim), effort, report)?;
             if told(report) == before {
-                report.remark(format!("{name}: no condition is needed"));
+                let mut alone = case.clone();
+                (alone.motions, alone.absences) = (Vec::new(), Vec::new());
+                alone.claims = vec![claim.clone()];
+                let judged = judge(&alone, &effort.options)?.claims;
+                // For some kinds of claims nothing is asked, and roots have a sign that is not asked.
+                report.remark(match judged.iter().all(|own| own.verdict == Verdict::Proved) {
+                    true => format!("{name}: no condition is needed"),
+                    false => format!("{name}: no condition on the parameters was found"),
+                });
             }
             Ok(())
         }
