@@ -182,14 +182,8 @@ fn judged(
             _ => outcome,
         }
     };
-    let report = |claim: &AbsenceClaim| {
-        let mut report = reports::report(claim, outcome(claim));
-        if let Some((_, remark)) = &moving {
-            report.evidence.add_remark(remark.clone());
-        }
-        report
-    };
-    case.absences.iter().map(report).collect()
+    let remark = moving.as_ref().map(|(_, remark)| remark.as_str());
+    case.absences.iter().map(|claim| reports::report(claim, outcome(claim), remark)).collect()
 }
 
 /// A case whose claims of absence are judged.

@@ -5,8 +5,12 @@ use liouville::verdict::{ClaimReport, Evidence, Method, Verdict};
 
 use super::AbsenceOutcome;
 
-/// Makes the report on a claim, with its verdict compared with the expectation.
-pub(super) fn report(claim: &AbsenceClaim, outcome: AbsenceOutcome) -> ClaimReport {
+/// Makes the report on a claim, with its verdict compared with the expectation and a remark on listed values.
+pub(super) fn report(
+    claim: &AbsenceClaim,
+    outcome: AbsenceOutcome,
+    remark: Option<&str>,
+) -> ClaimReport {
     let mut evidence = Evidence { method: Method::Count, ..Evidence::default() };
     let verdict = match outcome {
         AbsenceOutcome::Excluded { theorem, counted } => {
@@ -22,6 +26,9 @@ pub(super) fn report(claim: &AbsenceClaim, outcome: AbsenceOutcome) -> ClaimRepo
             Verdict::Undecided
         }
     };
+    if let Some(remark) = remark {
+        evidence.add_remark(remark.to_string());
+    }
     ClaimReport {
         name: claim.name.clone(),
         formula: None,

@@ -5,7 +5,9 @@
 
 use serde::Serialize;
 
+use super::description::Description;
 use super::hierarchy::{HierarchyClass, HierarchyPlace, Integrals, MeasureStatus};
+use super::{Survey, words};
 use crate::lists;
 use liouville::case::Case;
 use liouville::verdict::JudgeError;
@@ -22,9 +24,31 @@ pub struct ValuePlace {
     pub hierarchy: HierarchyPlace,
 }
 
+/// Surveys a case, without the listed values for which there is no motion, and finds its places for single values; `survey`
+/// takes a case with the one value of each list that it has, in words.
+pub fn of_each(
+    case: &Case,
+    survey: &mut dyn FnMut(&Case, Option<&str>) -> Result<Survey, JudgeError>,
+) -> Result<Survey, JudgeError> {
+    let moving = lists::with_motion(case);
+    let own = moving.as_ref().map_or(case, |(own, _)| own);
+    let mut found = survey(own, None)?;
+    let places = places(own, &mut |own, values| Ok(survey(own, Some(values))?.hierarchy))?;
+    if let Some(places) = places {
+        found.hierarchy.by_value(&places);
+        found.by_value = places;
+    }
+    if let Some((_, remark)) = moving {
+        found.description = Description::of(case);
+        found.parameters = words::parameters(case);
+        found.remarks.insert(0, remark);
+    }
+    Ok(found)
+}
+
 /// Finds the places for all combinations of listed values; `None` if no parameter has a list of
 /// several, and none of them if there are many.
-pub fn places(
+fn places(
     case: &Case,
     place: &mut dyn FnMut(&Case, &str) -> Result<HierarchyPlace, JudgeError>,
 ) -> Result<Option<Vec<ValuePlace>>, JudgeError> {

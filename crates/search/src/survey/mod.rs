@@ -69,7 +69,7 @@ pub use unknown::{SearchOutcome, of_search};
 pub use wireframe::Wireframe;
 pub use words::GivenParameter;
 
-use crate::{Halt, lists};
+use crate::Halt;
 use geometry::Geometry;
 use hierarchy::KnownFeatures;
 use question::SurveyQuestion;
@@ -168,35 +168,13 @@ pub fn survey(
     if case.model.system.is_map() {
         return Err(JudgeError::Discrete);
     }
-    if let Some((moving, remark)) = lists::with_motion(case) {
-        let found = of_each_value(&moving, options, halt, progress)?;
-        return Ok(Survey {
-            description: Description::of(case),
-            parameters: words::parameters(case),
-            remarks: [vec![remark], found.remarks].concat(),
-            ..found
-        });
-    }
-    of_each_value(case, options, halt, progress)
-}
-
-/// Surveys what holds for all values of the parameters, and the places in the hierarchy for each of listed ones.
-fn of_each_value(
-    case: &Case,
-    options: &Options,
-    halt: &Halt,
-    progress: &mut dyn FnMut(&str),
-) -> Result<Survey, JudgeError> {
-    let mut found = of_all_values(case, options, halt, progress)?;
-    let places = by_value::places(case, &mut |own, values| {
-        let progress = &mut |part: &str| progress(&format!("{part}, for {values}"));
-        of_all_values(own, options, halt, progress).map(|own| own.hierarchy)
-    })?;
-    if let Some(places) = places {
-        found.hierarchy.by_value(&places);
-        found.by_value = places;
-    }
-    Ok(found)
+    by_value::of_each(case, &mut |own, values| {
+        let of_one = |part: &str| match values {
+            Some(values) => format!("{part}, for {values}"),
+            None => part.to_string(),
+        };
+        of_all_values(own, options, halt, &mut |part| progress(&of_one(part)))
+    })
 }
 
 /// Surveys what holds for all values of the parameters, listed ones among them.
