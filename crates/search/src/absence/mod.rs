@@ -154,8 +154,7 @@ fn judged(
 ) -> Vec<ClaimReport> {
     let options = Options { trust: Trust::Best, mutants: false, ..*options };
     let moving = lists::with_motion(case);
-    let case = moving.as_ref().map_or(case, |(own, _)| own);
-    let ground = abbreviated(case).and_then(|case| {
+    let ground = abbreviated(moving.as_ref().map_or(case, |(own, _)| own)).and_then(|case| {
         let effort = Effort { options, ..Effort::default() };
         let known = ProvedIntegrals::of(&case, (judged, others), &effort)?;
         let coordinates = Coordinates::of(&case);
@@ -168,12 +167,12 @@ fn judged(
         };
         match by_value::judged(case, &claim.kind, coordinates, (judged, others), options) {
             Ok(Some(outcome)) => return outcome,
-            Ok(None) => {}
             Err(error) => return AbsenceOutcome::Open(error.to_string()),
+            Ok(None) => {}
         }
         let asked = AbsenceCase::new(case, (known, coordinates), judged, options);
-        let outcome = asked.judge(&claim.kind);
-        let outcome = outcome.unwrap_or_else(|error| AbsenceOutcome::Open(error.to_string()));
+        let open = |error: SearchError| AbsenceOutcome::Open(error.to_string());
+        let outcome = asked.judge(&claim.kind).unwrap_or_else(open);
         if !matches!(outcome, AbsenceOutcome::Open(_)) {
             return outcome;
         }
@@ -182,8 +181,7 @@ fn judged(
             _ => outcome,
         }
     };
-    let remark = moving.as_ref().map(|(_, remark)| remark.as_str());
-    case.absences.iter().map(|claim| reports::report(claim, outcome(claim), remark)).collect()
+    case.absences.iter().map(|claim| reports::report(claim, outcome(claim), &moving)).collect()
 }
 
 /// A case whose claims of absence are judged.

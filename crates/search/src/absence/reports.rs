@@ -1,15 +1,16 @@
 //! Outcomes of claims of absence as reports.
 
-use liouville::case::AbsenceClaim;
+use liouville::case::{AbsenceClaim, Case};
 use liouville::verdict::{ClaimReport, Evidence, Method, Verdict};
 
 use super::AbsenceOutcome;
 
-/// Makes the report on a claim, with its verdict compared with the expectation and a remark on listed values.
+/// Makes the report on a claim, with its verdict compared with the expectation, and the remark on values that were left
+/// out.
 pub(super) fn report(
     claim: &AbsenceClaim,
     outcome: AbsenceOutcome,
-    remark: Option<&str>,
+    moving: &Option<(Case, String)>,
 ) -> ClaimReport {
     let mut evidence = Evidence { method: Method::Count, ..Evidence::default() };
     let verdict = match outcome {
@@ -26,8 +27,8 @@ pub(super) fn report(
             Verdict::Undecided
         }
     };
-    if let Some(remark) = remark {
-        evidence.add_remark(remark.to_string());
+    if let Some((_, remark)) = moving {
+        evidence.add_remark(remark.clone());
     }
     ClaimReport {
         name: claim.name.clone(),
