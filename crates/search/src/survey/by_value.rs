@@ -24,12 +24,12 @@ pub struct ValuePlace {
     pub hierarchy: HierarchyPlace,
 }
 
+/// A survey of a case; the text names the value of each list, if it has one value each.
+type OneSurvey<'s> = &'s mut dyn FnMut(&Case, Option<&str>) -> Result<Survey, JudgeError>;
+
 /// Surveys a case, without the listed values for which there is no motion, and finds its places for single values; `survey`
 /// takes a case with the one value of each list that it has, in words.
-pub fn of_each(
-    case: &Case,
-    survey: &mut dyn FnMut(&Case, Option<&str>) -> Result<Survey, JudgeError>,
-) -> Result<Survey, JudgeError> {
+pub fn of_each(case: &Case, survey: OneSurvey<'_>) -> Result<Survey, JudgeError> {
     let moving = lists::with_motion(case);
     let own = moving.as_ref().map_or(case, |(own, _)| own);
     let mut found = survey(own, None)?;
