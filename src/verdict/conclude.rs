@@ -64,7 +64,7 @@ pub fn report(
     }
     if let (Verdict::Refuted, Some(frame)) = (verdict, frame_in(&case.model, item)) {
         evidence.add_remark(format!(
-            "{frame} is any 3×3 matrix, and no rotation at this state: what holds for rotations alone is refuted"
+            "{frame} stands for any 3×3 matrix: what holds for rotations alone is refuted"
         ));
     }
     let holds = matches!(verdict, Verdict::Proved | Verdict::Confirmed);

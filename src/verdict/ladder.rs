@@ -104,8 +104,11 @@ impl Judging<'_> {
         let space = self.sampler_at(&place)?;
         let (mut known, mut others) = (Vec::new(), Vec::new());
         for (item, status) in std::mem::take(open) {
-            let mut written = item.residual.iter().chain(&item.presence).chain(&item.requirement);
-            let is_alone = !space.is_numerical() && written.all(is_of_parameters);
+            let asked = item.residual.iter().chain(&item.context.quadrature_defects);
+            let mut written = asked.chain(&item.presence).chain(&item.requirement);
+            // A claim without a residual says something else.
+            let has_residual = !item.residual.is_empty();
+            let is_alone = has_residual && !space.is_numerical() && written.all(is_of_parameters);
             if is_alone && !item.claim.kind.is_negated() {
                 let mut alone = ClaimState::default();
                 self.decide(&place, &space, None, &mut vec![(item, &mut alone)])?;

@@ -45,7 +45,7 @@ impl Lagrangian {
     /// nowhere 0, on the level, in all of space and where one of several equations holds. Minors are taken elsewhere if few
     /// velocities and constraints are coupled, or if the matrix has eigenvalues of both signs at some of the first drawn
     /// states, with one choice of listed values or another. Many are eliminated, with M + aᵀa in the place of M where
-    /// there are constraints.
+    /// there are constraints and nothing is known of the leading minors of M.
     pub fn acceleration_solver(
         &self,
         model: &Model,

@@ -22,7 +22,7 @@ const ROOM: f64 = 2.0;
 /// Share of a box's side at which it is halved: off the middle, where points often lie.
 const CUT: f64 = 0.4957;
 
-/// What is found in a box.
+/// Points of a box that are proved, and the parts of it that are open.
 #[derive(Clone, Debug, Default)]
 pub struct Found {
     /// Boxes with one point each.
