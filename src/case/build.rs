@@ -14,10 +14,10 @@ use super::stated::{ReadClaims, Time};
 use super::systems::{ModelParts, Reading};
 use super::{
     Case, CaseRemark, Column, TABLE_ROWS, charts, homogeneous, implied, lists, map, one_sided,
-    poincare, remarks, repeated, repeated_constraints, shadows, toml_errors, variables, velocities,
-    weights,
+    poincare, remarks, repeated_constraints, shadows, simplified, toml_errors, turning, variables,
+    velocities, weights,
 };
-use crate::mechanics::{Chart, LevelEquation, LevelFunction, Model, Surface, System};
+use crate::mechanics::{Chart, Model, Surface, System};
 
 /// The keys of a case file.
 const KEYS: [&str; 21] = [
@@ -188,9 +188,9 @@ fn read(
         let left_out = implied::leave_out_constraints(&mut parts.model);
         remarks.extend(left_out.into_iter().map(CaseRemark::from));
         warnings.extend(root.keep(velocities::check(root, &parts.model)).unwrap_or_default());
-        root.keep(no_open_level(root, &parts.model));
-        let left_out = root.keep(no_implied_level(root, &mut parts.model)).unwrap_or_default();
-        remarks.extend(left_out.into_iter().map(CaseRemark::from));
+        turning::no_moving_surface(root, &parts.model);
+        let simplified = simplified::simplify(root, &mut parts.model);
+        remarks.extend(simplified.into_iter().map(CaseRemark::from));
     }
     read_chart(root, &mut parts);
     if is_whole && mistakes.is_empty() {
@@ -268,38 +268,6 @@ fn one_of_field_and_map(root: &CaseTable<'_>, system: &str) {
     }
 }
 
-/// Rejects a level equation with an ∫: its open constant does not fix a level set.
-fn no_open_level(root: &CaseTable<'_>, model: &Model) -> Result<(), Mistake> {
-    for equation in &model.level {
-        let LevelFunction::Formula(function) = &equation.function else { continue };
-        if model.has_antiderivative(function) {
-            let span = root.find(&equation.text).map(|start| start..start + equation.text.len());
-            let message = format!("`{}` contains an ∫, whose constant is open", equation.text);
-            let remedy = "write the antiderivative out".to_string();
-            return Err(Mistake::new(span, Problem::Sense { message, remedy }));
-        }
-    }
-    Ok(())
-}
-
-/// Simplifies equations of `[level]` with repeated factors, leaves out those that follow from others, and rejects one
-/// that contradicts them; returns remarks.
-fn no_implied_level(root: &CaseTable<'_>, model: &mut Model) -> Result<Vec<String>, Mistake> {
-    let Some(section) = root.table("level") else { return Ok(Vec::new()) };
-    let texts = section.texts("equations").unwrap_or_default();
-    let texts: Vec<String> = texts.iter().map(|text| text.value.trim().to_string()).collect();
-    let is_given = |equation: &LevelEquation| implied::is_one_of(equation, &texts);
-    let mut remarks = repeated::count_factors_once(model, is_given);
-    let left_out = implied::leave_out(model, is_given).map_err(|text| {
-        let span = root.find(&text).map(|start| start..start + text.len());
-        let message = format!("`{text}` contradicts the equations before it");
-        let remedy = "correct one of them: together they have no solution".to_string();
-        Mistake::new(span, Problem::Sense { message, remedy })
-    })?;
-    remarks.extend(left_out);
-    Ok(remarks)
-}
-
 /// Extends a support function that is not homogeneous of degree 1 off the unit sphere.
 pub fn extend_support(model: &mut Model) {
     let surface = |system: &System| match system {
@@ -337,13 +305,13 @@ fn note_masses(parts: &mut ModelParts) {
 /// Reads the chart of a user-defined level set: given, solved for, or none.
 fn read_chart(root: &CaseTable<'_>, parts: &mut ModelParts) {
     let is_lagrangian = matches!(parts.model.system, System::Lagrangian(_));
+    let is_own = parts.model.system.is_given_by_formulas();
     let Some(section) = root.table("level") else {
-        if is_lagrangian && !parts.model.level.is_empty() {
+        if (is_lagrangian || is_own) && !parts.model.level.is_empty() {
             parts.chart = Chart::Equations;
         }
         return;
     };
-    let is_own = parts.model.system.is_given_by_formulas();
     if !is_lagrangian && !is_own {
         root.mistakes().add(Mistake::at(
             section.span.clone(),

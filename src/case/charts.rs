@@ -28,7 +28,7 @@ pub fn chart(section: &CaseTable<'_>, model: &Model, draws: &[Draw]) -> Option<C
             matches!(entry.meaning, Meaning::Abbreviation(_)) && own.contains(&entry.name);
         entry.reach == Dependence::Parameters && !is_input
     });
-    let mut inputs = state::state(&table, &mut names, Dependence::Phase);
+    let mut inputs = state::state(&table, &mut names, Dependence::Phase, None);
     if inputs.variables.iter().any(|input| input.shape.is_some()) {
         section.mistakes().add(table.complaint(Problem::Other {
             message: "an input of a chart is a scalar, a vector or a matrix".to_string(),
@@ -96,6 +96,7 @@ pub fn chart(section: &CaseTable<'_>, model: &Model, draws: &[Draw]) -> Option<C
         state: inputs.variables,
         abbreviations,
         level: Vec::new(),
+        orientations: Vec::new(),
         extension: Vec::new(),
         variables: None,
         ..model.clone()

@@ -62,6 +62,17 @@ pub fn equations_in(
     Some(read.into_iter().collect::<Option<Vec<_>>>()?.concat())
 }
 
+/// Returns the equations of a rotation matrix, as of one that is named by its entries: QᵀQ = E and det Q = 1.
+pub fn of_rotation(name: &str, vocabulary: &Vocabulary) -> Result<Vec<(String, Formula)>, Mistake> {
+    let wrong = |error| Mistake::new(None, Problem::Formula(error));
+    let product = format!("{name}ᵀ*{name} − [[1, 0, 0], [0, 1, 0], [0, 0, 1]]");
+    let product = Formula::parse(&product, vocabulary).map_err(wrong)?;
+    let half = Formula::parse(&format!("det({name}) − 1"), vocabulary).map_err(wrong)?;
+    let mut all = entries(&format!("{name}ᵀ*{name} = E"), product, vocabulary).map_err(wrong)?;
+    all.push((format!("det({name}) = 1"), half));
+    Ok(all)
+}
+
 /// Writes the rate of an equation: `(q,q)' = 0` for `(q,q) = l²`.
 pub fn rate_text(text: &str, vocabulary: &Vocabulary) -> String {
     let (equation, entry) = match text.split_once(ENTRY) {

@@ -38,8 +38,9 @@ pub fn read(
     let names = |key| section.keep(named(section, key, variables));
     let (quasi, multipliers) = (names("quasi-velocities"), names("multipliers"));
     let carried = carried(reading);
-    let (quasi, multipliers, level) = (quasi?, multipliers?, level?);
+    let (quasi, multipliers, mut level) = (quasi?, multipliers?, level?);
     section.keep(counted(section, &multipliers, level.len(), vakonomic))?;
+    level.extend(reading.rotations(true));
     let roles = roles(section, variables, &quasi, &multipliers, carried)?;
     let algebra = section.keep(algebra(section, variables, &quasi, &roles));
     let forces = forces(section, vocabulary, variables, &roles);

@@ -22,11 +22,19 @@ pub struct State {
     pub variables: Vec<Variable>,
     /// Draw of each component.
     pub draws: Vec<Draw>,
+    /// Names of the matrices that are rotations, on a level; `None` where none may be.
+    pub rotations: Option<Vec<String>>,
 }
 
-/// Reads a table of names and ranges; `reach` is the dependence that the names stand for.
-pub fn state(section: &CaseTable<'_>, vocabulary: &mut Vocabulary, reach: Dependence) -> State {
-    let mut state = State { variables: Vec::new(), draws: Vec::new() };
+/// Reads a table of names and ranges; `reach` is the dependence that the names stand for. `rotations` is there where the
+/// equations of rotation matrices can be added to the level.
+pub fn state(
+    section: &CaseTable<'_>,
+    vocabulary: &mut Vocabulary,
+    reach: Dependence,
+    rotations: Option<Vec<String>>,
+) -> State {
+    let mut state = State { variables: Vec::new(), draws: Vec::new(), rotations };
     add_state(section, vocabulary, reach, &mut state);
     state
 }
@@ -40,6 +48,15 @@ pub fn add_state(
 ) {
     for (key, value) in section.entries() {
         let Some(name) = section.keep(named(key)) else { continue };
+        if let Some(own) = &mut state.rotations
+            && vocabulary.find(&name).is_none()
+            && value.get_ref().as_str().is_some_and(|text| text.trim() == "rotation")
+        {
+            own.push(name.clone());
+            let draw = Draw::Within(Range::between((-1, 1), (1, 1)));
+            state.add(&name, Type::MATRIX, vec![draw; 9], vocabulary, reach);
+            continue;
+        }
         match variable(section, &name, (key, value), vocabulary) {
             Ok((kind, draws, None)) => state.add(&name, kind, draws, vocabulary, reach),
             Ok((kind, draws, Some(shape))) => {

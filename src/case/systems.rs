@@ -72,7 +72,7 @@ impl<'r, 's> Reading<'r, 's> {
             parameters: Vec::new(),
             lists: Vec::new(),
             sizes: Vec::new(),
-            state: State { variables: Vec::new(), draws: Vec::new() },
+            state: State { variables: Vec::new(), draws: Vec::new(), rotations: None },
             items: Vec::new(),
             awaits_reactions: false,
             abbreviations: Vec::new(),
@@ -123,6 +123,7 @@ impl<'r, 's> Reading<'r, 's> {
             variables: None,
             abbreviations: self.abbreviations,
             level: self.level,
+            orientations: Vec::new(),
             fixed,
             undetermined: Vec::new(),
         };
@@ -189,17 +190,39 @@ impl<'r, 's> Reading<'r, 's> {
 
     /// Reads the equations of `[level]`; `None` if one is wrong.
     pub fn read_level(&self) -> Option<Vec<LevelEquation>> {
-        match self.root.table("level") {
-            Some(section) => equations::level_equations(&section, &self.vocabulary),
-            None => Some(Vec::new()),
+        let mut level = match self.root.table("level") {
+            Some(section) => equations::level_equations(&section, &self.vocabulary)?,
+            None => Vec::new(),
+        };
+        let mut own = self.rotations(false);
+        // Those with velocities are constraints of a Lagrangian.
+        if !self.root.has("lagrangian") {
+            own.extend(self.rotations(true));
         }
+        let own = own.into_iter();
+        level.extend(own.map(|(text, own)| equations::level_equation(text, own, None)));
+        Some(level)
+    }
+
+    /// Returns the equations of the matrices that `[state]` declares as rotations: those of which it declares velocities
+    /// too, or the others.
+    pub fn rotations(&self, with_velocities: bool) -> Vec<(String, Formula)> {
+        let has_velocity = |name: &&String| {
+            let velocity = format!("{name}'");
+            self.state.variables.iter().any(|own| own.name == velocity) == with_velocities
+        };
+        let names = self.state.rotations.iter().flatten().filter(has_velocity);
+        let of = |name: &String| equations::of_rotation(name, &self.vocabulary);
+        names.flat_map(|name| self.root.keep(of(name)).unwrap_or_default()).collect()
     }
 
     /// Reads the variables of a system without built-in ones.
     pub fn own_state(&mut self, reach: Dependence, remedy: &str) {
         match self.root.table("state") {
             Some(ranges) => {
-                self.state = state::state(&ranges, &mut self.vocabulary, reach);
+                // A map may take one half of the orthogonal matrices to the other.
+                let rotations = (!self.root.has("map")).then(Vec::new);
+                self.state = state::state(&ranges, &mut self.vocabulary, reach, rotations);
                 self.list_shapes();
             }
             None => {

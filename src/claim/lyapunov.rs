@@ -124,7 +124,10 @@ impl Statement for Lyapunov {
 
     fn conditions(&self, jet: &DualPoint<'_, Expr>, _: &[bool]) -> Vec<Condition> {
         let slopes = jet.gradients(&self.function).concat();
-        let constant = Condition::nonzero(slopes, "F is a constant: this says nothing");
+        let constant = Condition::nonzero(
+            slopes,
+            "the slope of F is 0: F is a constant, or changes at jumps only",
+        );
         match jet.phase.model().system.is_map() {
             true => vec![constant],
             false => {

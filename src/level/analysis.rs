@@ -54,6 +54,10 @@ pub fn solve(model: &Model, kept: &[bool], order: Order) -> Option<Solution> {
         let search = OrderSearch { model, derivatives, order };
         let frames = match order {
             Order::ByRoots => Vec::new(),
+            Order::Usual | Order::Jointly if kept.iter().all(|kept| *kept) => {
+                let all = Frame::all(&search.derivatives).into_iter();
+                all.map(|frame| frame.oriented(model)).collect()
+            }
             Order::Usual | Order::Jointly => Frame::all(&search.derivatives),
         };
         let last = search.determined_last();

@@ -8,6 +8,7 @@ use super::derivatives::{EquationDerivatives, members};
 use super::equation::Equation;
 use super::quadric::Quadric;
 use crate::graph::Expr;
+use crate::mechanics::{Half, Model};
 use crate::number::rational::Rational;
 use crate::scalar::Scalar;
 
@@ -22,6 +23,8 @@ pub struct Frame {
     lower: Vec<Vec<Rational>>,
     /// Positive numbers D: the Gram matrix is L D Lᵀ.
     squares: Vec<Rational>,
+    /// Half of the level in which a basis lies, if the file chooses one.
+    pub half: Option<Half>,
 }
 
 /// An equation (x,x) = c or (x,y) = c.
@@ -110,7 +113,7 @@ impl Frame {
                 && vectors.len() <= start.len()
                 && let Some((lower, squares)) = factors(&rows)
             {
-                frames.push(Frame { equations: taken, vectors, lower, squares });
+                frames.push(Frame { equations: taken, vectors, lower, squares, half: None });
             }
         }
         frames
@@ -119,6 +122,30 @@ impl Frame {
     /// Whether the vectors are a basis: the last one is then one of two.
     pub fn is_basis(&self) -> bool {
         self.vectors.len() == self.vectors[0].len()
+    }
+
+    /// Whether the last vector may be either of two.
+    pub fn has_sign(&self) -> bool {
+        self.is_basis() && self.half.is_none()
+    }
+
+    /// Chooses the half of the level that a file asks for.
+    pub fn oriented(self, model: &Model) -> Self {
+        let half = model
+            .orientations
+            .iter()
+            .map(|own| &own.half)
+            .find(|half| half.vectors == self.vectors);
+        Self { half: half.cloned(), ..self }
+    }
+
+    /// Returns the sign by which a basis has a determinant of this sign.
+    ///
+    /// The unit vectors e_n, …, e₁ and n - 1 reflections make it ±1.
+    pub fn sign_of(&self, is_positive: bool) -> Expr {
+        let size = self.vectors.len();
+        let is_odd = (size * size.saturating_sub(1) / 2 + size.saturating_sub(1)) % 2 == 1;
+        if is_positive == is_odd { -Expr::one() } else { Expr::one() }
     }
 
     /// Returns the components from whose draws the vectors are made.
@@ -140,7 +167,10 @@ impl Frame {
             let last = size - k - 1;
             let mut own = vec![Expr::zero(); size];
             own[last] = match last {
-                0 => sign.unwrap_or_else(Expr::one),
+                0 => match &self.half {
+                    Some(half) => self.sign_of(half.is_positive),
+                    None => sign.unwrap_or_else(Expr::one),
+                },
                 _ => Expr::one(),
             };
             if last > 0 {

@@ -3,7 +3,7 @@
 use super::equation::PartialPoint;
 use super::steps::{Pivot, SolutionStep};
 use crate::graph::Expr;
-use crate::mechanics::{Draw, Model, NumberLine, Phase, Range};
+use crate::mechanics::{Draw, Half, Model, NumberLine, Phase, Range};
 use crate::proof::SignFact;
 
 /// A sequence of steps that makes points of a level.
@@ -45,6 +45,15 @@ impl Solution {
     /// Whether some states are made from directions rather than from numbers in the declared ranges.
     pub fn has_directions(&self) -> bool {
         self.steps.iter().any(|step| !step.directions().is_empty())
+    }
+
+    /// Lists the halves of the level in which all its points lie.
+    pub fn halves(&self) -> Vec<Half> {
+        let half = |step: &SolutionStep| match step {
+            SolutionStep::Frame(frame) => frame.half.clone(),
+            _ => None,
+        };
+        self.steps.iter().filter_map(half).collect()
     }
 
     /// Returns the draws of the state's components and of the signs, given those of the components.

@@ -109,7 +109,7 @@ impl SolutionStep {
     pub fn has_sign(&self) -> bool {
         match self {
             SolutionStep::Quadratic { .. } => true,
-            SolutionStep::Frame(frame) => frame.is_basis(),
+            SolutionStep::Frame(frame) => frame.has_sign(),
             _ => false,
         }
     }

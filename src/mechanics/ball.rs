@@ -66,6 +66,14 @@ impl BallOnSurface {
         }
     }
 
+    /// Computes Ω(e₃ × r, n) of a surface that turns in the fixed frame, which is 0 exactly if it turns into itself.
+    pub fn leaves_itself<T: Scalar>(&self, phase: &Phase<'_, T>) -> Option<T> {
+        let rate = self.rotation.as_ref().filter(|_| !self.rotating_frame)?;
+        let BallMotion { normal, centre, .. } = self.motion(phase);
+        let across = centre[0] * normal[1] - centre[1] * normal[0];
+        Some(self.value(&phase.configuration, rate) * across)
+    }
+
     fn value<T: Scalar>(&self, at: &Configuration<'_, T>, formula: &Formula) -> T {
         scalar(at.evaluate(formula))
     }

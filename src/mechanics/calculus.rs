@@ -169,10 +169,13 @@ impl<'m, T: Scalar> DualPoint<'m, T> {
         sum
     }
 
-    /// Evaluates the kept level functions at another point.
+    /// Evaluates the kept level functions at another point, and what chooses a half of the whole level.
     #[inline(never)]
     pub fn level_at(&self, there: &Phase<'m, T>, kept: &[bool]) -> Vec<T> {
-        kept_functions(there.model(), kept).map(|f| there.level_function(f)).collect()
+        let model = there.model();
+        let halves = kept.iter().all(|kept| *kept).then_some(&model.orientations);
+        let chosen = halves.into_iter().flatten().map(|own| &own.equation.function);
+        kept_functions(model, kept).chain(chosen).map(|f| there.level_function(f)).collect()
     }
 
     /// Computes the gradients of the kept level functions.

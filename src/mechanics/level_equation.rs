@@ -1,6 +1,8 @@
 //! Equations of a level set.
 
+use super::elimination::determinant;
 use crate::formula::Formula;
+use crate::graph::Expr;
 
 /// One equation F = 0 of the level set.
 #[derive(Clone, Debug)]
@@ -37,6 +39,35 @@ pub struct RootEquation {
     pub is_modulus: bool,
     /// Other side e, which is not negative on the level.
     pub other_side: Formula,
+}
+
+/// An equation that chooses one of two halves of the level, on which it holds: det Q = 1 where QᵀQ = E. It is not one
+/// of the equations of the level.
+#[derive(Clone, Debug)]
+pub struct Orientation {
+    /// The equation.
+    pub equation: LevelEquation,
+    /// Half on which it holds.
+    pub half: Half,
+}
+
+/// A half of a level: the sign of the determinant of vectors that are a basis on all of it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Half {
+    /// Components of the state that each vector consists of.
+    pub vectors: Vec<Vec<usize>>,
+    /// Whether their determinant is positive.
+    pub is_positive: bool,
+}
+
+impl Half {
+    /// Computes a value that is positive on this half, and negative on the other one.
+    pub fn sign(&self, state: &[Expr]) -> Expr {
+        let row = |vector: &Vec<usize>| vector.iter().map(|k| state[*k]).collect();
+        let rows: Vec<Vec<Expr>> = self.vectors.iter().map(row).collect();
+        let value = determinant(&rows);
+        if self.is_positive { value } else { -value }
+    }
 }
 
 /// The function whose zeros are the points of a level equation.

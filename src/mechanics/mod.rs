@@ -52,7 +52,9 @@ pub use hamiltonian::HamiltonianSystem;
 pub use lagrangian::{
     AccelerationSolver, Algebra, EquationTerms, Lagrangian, LagrangianEquations, VariableRole,
 };
-pub use level_equation::{ENTRY, LevelEquation, LevelFunction, RootEquation, written};
+pub use level_equation::{
+    ENTRY, Half, LevelEquation, LevelFunction, Orientation, RootEquation, written,
+};
 pub use listed::{ListedValues, combinations};
 pub use model::{MatrixShape, Model, Parameter, ParameterOrigin, TIME, Variable, components};
 pub use motion_bracket::{MotionBracket, size_of_variables};

@@ -3,7 +3,7 @@
 use std::rc::Rc;
 
 use super::System;
-use super::level_equation::LevelEquation;
+use super::level_equation::{LevelEquation, Orientation};
 use super::listed::ListedValues;
 use super::recipe::{Draw, SamplerSpec};
 use super::variables::NewVariables;
@@ -126,6 +126,8 @@ pub struct Model {
     pub abbreviations: Vec<Formula>,
     /// Equations of the level set.
     pub level: Vec<LevelEquation>,
+    /// Equations that choose halves of the level.
+    pub orientations: Vec<Orientation>,
     /// Names whose values are written into the case outside formulas, as sizes and in keys.
     pub fixed: Vec<Symbol>,
     /// Choices of listed values for which the equations of motion have no value.
@@ -145,6 +147,7 @@ impl Model {
             variables: None,
             abbreviations: self.abbreviations.clone(),
             level: Vec::new(),
+            orientations: Vec::new(),
             fixed: self.fixed.clone(),
             undetermined: self.undetermined.clone(),
         };

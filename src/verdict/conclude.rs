@@ -78,22 +78,20 @@ pub fn report(
         }
         if claim.kind.is_negated() && status.is_on_a_part {
             evidence.add_flaw(Flaw::OnAPart);
-            let own = match status.parts {
-                Some((shown, all)) => {
-                    format!(
-                        "true on {shown} of the {all} parts of the level, and false on the others"
-                    )
-                }
-                None => ON_A_PART.to_string(),
-            };
             evidence.remark = Some(match evidence.remark {
-                Some(remark) => format!("{own}; {remark}"),
-                None => own,
+                Some(remark) => format!("{ON_A_PART}; {remark}"),
+                None => ON_A_PART.to_string(),
             });
         }
     }
     if !holds {
         evidence.independence = None;
+    }
+    if let (Verdict::Refuted, true, Some((shown, all))) =
+        (verdict, claim.kind.is_negated(), status.parts)
+    {
+        let words = "parts of the level, and false on the others";
+        evidence.add_remark(format!("true on {shown} of the {all} {words}"));
     }
     if verdict == Verdict::Refuted
         && let Some(limit) = claim.kind.limit_of_refutation(&case.model)

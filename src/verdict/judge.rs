@@ -183,7 +183,7 @@ impl JudgeError {
             }
             JudgeError::Dependent(_) => {
                 "leave it out if it follows from the others, and correct it if it contradicts them; a part \
-                 is chosen by the ranges of [state], and det(R) = 1 by R = \"rotation\""
+                 is chosen by the ranges of [state]"
             }
             JudgeError::Quadrature(_) => {
                 "∫(f, x) is a function of x with derivative f: f may contain x and the parameters"

@@ -181,7 +181,10 @@ impl Judging<'_> {
             }
         }
         let undefined = (0..TAPE_LANES).all(|lane| !defined(&values.range(0..fields), lane));
-        if undefined && !self.has_field_with_more_digits(sampler) {
+        if undefined
+            && !self.has_field_with_more_digits(sampler)
+            && !self.has_field_for_some_exponents(sampler)?
+        {
             let all = TAPE_LANES as u64;
             let overflows = |lane: usize| {
                 let at: Vec<f64> = states.iter().map(|block| block.mid[lane]).collect();

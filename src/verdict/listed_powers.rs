@@ -6,11 +6,12 @@ use super::claim_state::ClaimState;
 use super::judge::JudgeError;
 use super::judging::Judging;
 use super::recorded::RecordedClaim;
-use super::sampler::Sampler;
+use super::sampler::{Sampler, TAPE_LANES};
 use crate::claim::{Condition, Need};
-use crate::graph::{Expr, Fault, Graph, Step, record};
+use crate::graph::{Evaluator, Expr, Fault, Graph, Step, Tape, record};
 use crate::mechanics::{Draw, combinations};
 use crate::number::BinaryOperation;
+use crate::number::ball::{Ball, Balls};
 use crate::number::rational::Rational;
 use crate::proof::{Extent, sign};
 use crate::scalar::Scalar;
@@ -52,6 +53,26 @@ impl Judging<'_> {
             }
         }
         Ok(Some(split))
+    }
+
+    /// Whether the equations of motion have values at a drawn state for some listed exponents, each as a number in the
+    /// file: x² has one for x < 0, and x^a, for any a near 2, none.
+    pub(super) fn has_field_for_some_exponents(&self, sampler: &Sampler) -> Result<bool, Fault> {
+        let is_listed = !sampler.is_numerical() && self.case.model.has_listed_exponents();
+        let choices = is_listed.then(|| combinations(sampler.recipes())).flatten();
+        for fixed in choices.into_iter().flatten() {
+            let field = std::slice::from_ref(&self.common.field);
+            let (graph, values) = sampler.compose(self.graph, field, &fixed)?;
+            let tape = Tape::new(&graph, &values.concat());
+            let mut evaluator = Evaluator::new(&tape, Ball::<TAPE_LANES>);
+            let chosen = sampler.with(&fixed);
+            evaluator.run(&chosen.drawn(&Ball::<TAPE_LANES>, TAPE_LANES, 0));
+            let found: Vec<&Balls<TAPE_LANES>> = evaluator.outputs().collect();
+            if (0..TAPE_LANES).any(|lane| found.iter().all(|own| own.is_defined(lane))) {
+                return Ok(true);
+            }
+        }
+        Ok(false)
     }
 
     /// Lists the draws in exponents for which a claim may speak of fewer states than with numbers in the

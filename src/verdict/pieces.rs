@@ -48,7 +48,7 @@ impl Judging<'_> {
         for fixed in &choices {
             let Some(parts) = place.divided(fixed)? else { return Ok(None) };
             let recipes = place.recipes(fixed);
-            let of_part = |part| sampler.on_part(part, recipes.clone());
+            let of_part = |part| sampler.on_part(&self.case.model, part, recipes.clone());
             let mut own: Vec<Sampler> = parts.iter().map(of_part).collect::<Result<_, Fault>>()?;
             let moves = own.iter().map(|own| self.moves(own)).collect::<Result<Vec<_>, Fault>>()?;
             let mut moves = moves.into_iter();
@@ -209,11 +209,14 @@ fn on_some(states: Vec<ClaimState>) -> ClaimState {
     let (all, is_on_a_part) = (states.len(), states.iter().any(|state| state.is_on_a_part));
     let is_proved = |state: &ClaimState| state.settled == Some(Verdict::Proved);
     let is_known = !is_on_a_part && states.iter().all(|own| is_shown(own) || is_proved(own));
+    // One part on which the value vanishes refutes the claim, as any claim has to hold on each.
+    let fails = is_known && count < all;
     let mut found = match count {
         0 => first(states, |state| !is_proved(state)),
+        _ if fails => first(states, is_proved),
         _ => first(states, is_shown),
     };
-    found.is_on_a_part = count > 0 && (is_on_a_part || count < all);
+    found.is_on_a_part = count > 0 && !fails && (is_on_a_part || count < all);
     found.parts = (is_known && count > 0).then_some((count, all));
     found
 }

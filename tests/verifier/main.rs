@@ -24,6 +24,7 @@ mod free_energies;
 mod functional_equations;
 mod geometry;
 mod golden;
+mod halves;
 mod hamiltonian;
 mod inverse_functions;
 mod involution;

@@ -30,7 +30,7 @@ impl ModelBuilder {
 /// Reads the chart of a model.
 pub(super) fn chart(model: &Model, (inputs, given): ChartSource) -> Result<Chart, ClaimError> {
     let mut names = model.vocabulary.only(|entry| entry.reach == Dependence::Parameters);
-    let mut state = State { variables: Vec::new(), draws: Vec::new() };
+    let mut state = State { variables: Vec::new(), draws: Vec::new(), rotations: None };
     for (name, range) in &inputs {
         let remedy = "give the chart's input a new name and a range, as \"-2..2\"";
         let refuse = |message: &str| ClaimError::new(name, message, remedy);
@@ -66,6 +66,7 @@ pub(super) fn chart(model: &Model, (inputs, given): ChartSource) -> Result<Chart
         state: state.variables,
         abbreviations,
         level: Vec::new(),
+        orientations: Vec::new(),
         extension: Vec::new(),
         variables: None,
         ..model.clone()

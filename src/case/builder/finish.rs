@@ -1,7 +1,7 @@
 //! Construction of the case from its declarations.
 
 use super::super::value::FormulaSource;
-use super::super::{Case, CaseRemark, ClaimError, build, implied, repeated, shadows};
+use super::super::{Case, CaseRemark, ClaimError, build, halves, implied, repeated, shadows};
 use super::{BodyPart, Build, ModelBuilder, chart};
 use crate::formula::{Formula, Scope, Symbol, Type, names_in};
 use crate::mechanics::{
@@ -57,6 +57,7 @@ impl ModelBuilder {
             variables: None,
             abbreviations: self.abbreviations,
             level: self.level,
+            orientations: Vec::new(),
             fixed,
             undetermined: Vec::new(),
         };
@@ -104,6 +105,7 @@ impl ModelBuilder {
         match open {
             None => {
                 let mut remarks = repeated::count_factors_once(&mut case.model, is_written);
+                remarks.extend(halves::take_out(&mut case.model, is_written));
                 let left_out = implied::leave_out(&mut case.model, is_written);
                 remarks.extend(left_out.map_err(|text| {
                     let message = "a level equation contradicts those before it";

@@ -111,7 +111,7 @@ impl Model {
 
 impl ModelBuilder {
     fn new(build: Build, title: &str) -> Self {
-        let state = State { variables: Vec::new(), draws: Vec::new() };
+        let state = State { variables: Vec::new(), draws: Vec::new(), rotations: None };
         let mut builder = Self {
             build,
             title: title.to_string(),

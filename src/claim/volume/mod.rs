@@ -12,12 +12,13 @@ use num_traits::{One, Zero};
 use super::assumption::Assumption;
 use crate::graph::{Evaluator, Expr, Tape, record};
 use crate::mechanics::{
-    Draw, DrawSource, Model, NORMAL, ParameterOrigin, Phase, SamplerSpec, System,
+    Draw, DrawSource, Model, NORMAL, ParameterOrigin, Phase, SamplerSpec, System, combinations,
 };
 use crate::number::Domain;
 use crate::number::ball::{Ball, Balls};
 use crate::number::rational::Rational;
 use crate::proof::{Extent, is_seen_nowhere_zero, sign};
+use crate::scalar::Scalar;
 
 /// Number of bodies of the case that are tried, and the seed by which `eval` draws them too.
 const BODIES: u64 = 64;
@@ -36,6 +37,8 @@ enum Zeros {
     None,
     /// There is one, as described.
     Known(String),
+    /// The body of this number has an inertia tensor that is not known to be positive definite, so that ρ₀ may vanish.
+    Indefinite(u64),
     /// It is not known whether there are any.
     Possible,
 }
@@ -58,7 +61,12 @@ pub(super) fn limit_of_proof(model: &Model) -> Option<String> {
              the criterion tells of a density only where this is not 0 for all γ",
             name(model)
         )),
-        _ => None,
+        Zeros::Indefinite(body) => Some(format!(
+            "the criterion is 0, but it is not known that I is positive definite for the body of state {body}, and \
+             that {} is not 0 for some γ, where the equations of motion would have no value",
+            name(model)
+        )),
+        Zeros::None | Zeros::Possible => None,
     }
 }
 
@@ -72,14 +80,32 @@ pub(super) fn assumption(model: &Model) -> Option<(Assumption, String)> {
     })
 }
 
-/// Looks for zeros: on the axes, and for bodies of the case where bounds do not show that there are none.
+/// Looks for zeros for each choice of listed values.
 fn zeros(model: &Model) -> Zeros {
-    let Some(body) = model.system.body() else { return Zeros::None };
     let draws = model.parameter_draws();
+    let Some(choices) = combinations(&draws) else { return Zeros::Possible };
+    let mut all = Zeros::None;
+    for fixed in choices {
+        let chosen = draws.iter().zip(&fixed).map(|(draw, own)| draw.fixed(own.as_ref()));
+        match zeros_for(model, &chosen.collect::<Vec<Draw>>(), &fixed) {
+            Zeros::None => {}
+            Zeros::Possible => all = Zeros::Possible,
+            known => return known,
+        }
+    }
+    all
+}
+
+/// Looks for zeros: on the axes, and for bodies of the case where bounds do not show that there are none.
+fn zeros_for(model: &Model, draws: &[Draw], fixed: &[Option<Rational>]) -> Zeros {
+    let Some(body) = model.system.body() else { return Zeros::None };
     let mut extents: Vec<Extent> = draws.iter().map(Draw::extent).collect();
     extents.extend([unit(); 3]);
     let recorded = record(extents.len(), |inputs| {
-        let (free, gamma) = model.make_parameters(inputs);
+        let own = fixed.iter().zip(inputs);
+        let own = own.map(|(own, input)| own.as_ref().map_or(*input, Expr::rational));
+        let inputs: Vec<Expr> = own.chain(inputs[fixed.len()..].iter().copied()).collect();
+        let (free, gamma) = model.make_parameters(&inputs);
         let state = |gamma: &[Expr]| {
             let mut state = vec![Expr::one(); model.dimension()];
             let place = 3 * NORMAL;
@@ -126,15 +152,31 @@ fn zeros(model: &Model) -> Zeros {
     let is_definite =
         has_positive_moments(model) || minors.iter().all(|own| is_positive(own, false));
     let is_curved = body.curvature.is_some();
-    let is_regular = || !is_curved || curved::is_nowhere_zero(model, body, &draws);
+    let is_regular = || !is_curved || curved::is_nowhere_zero(model, body, draws);
     if is_definite && is_positive(mass, true) && is_regular() || is_nonzero(density) {
         return Zeros::None;
     }
     let tape = Tape::new(&graph, &[*turned]);
-    match (0..BODIES).find(|body| takes_both_signs(&tape, &draws, *body)) {
-        Some(body) => Zeros::Known(format!("for some γ of the body of state {body}")),
+    if let Some(body) = (0..BODIES).find(|body| takes_both_signs(&tape, draws, *body)) {
+        return Zeros::Known(format!("for some γ of the body of state {body}"));
+    }
+    let tape = Tape::new(&graph, minors);
+    let indefinite = || (0..BODIES).find(|body| !has_positive_values(&tape, draws, *body));
+    match (!is_definite).then(indefinite).flatten() {
+        Some(body) => Zeros::Indefinite(body),
         None => Zeros::Possible,
     }
+}
+
+/// Whether values that depend on parameters alone are known to be positive for a body.
+fn has_positive_values(tape: &Tape, draws: &[Draw], body: u64) -> bool {
+    let values = DrawSource::new(draws).state(SEED, body);
+    let mut inputs: Vec<Balls<1>> =
+        values.iter().map(|x| Ball::<1>.values(std::slice::from_ref(x))).collect();
+    inputs.resize(tape.inputs().max(inputs.len()), Balls::new([f64::NAN], [0.0]));
+    let mut evaluator = Evaluator::new(tape, Ball::<1>);
+    evaluator.run(&inputs);
+    evaluator.outputs().all(|own| own.excludes_zero(0) && own.mid[0] > 0.0)
 }
 
 /// Numbers between -1 and 1.

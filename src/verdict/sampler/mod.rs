@@ -24,7 +24,7 @@ use crate::case::Case;
 use crate::claim::LevelSubset;
 use crate::graph::{Expr, Fault, Graph, Tape, literally, record};
 use crate::level::{self, Order, Part, Pivot, Solution};
-use crate::mechanics::{Chart, Draw, DrawSource, combinations};
+use crate::mechanics::{Chart, Draw, DrawSource, Model, combinations};
 use crate::number::ball::Balls;
 use crate::number::rational::Rational;
 use crate::proof::{Extent, InputDistribution};
@@ -134,7 +134,7 @@ impl Sampler {
         let Some(parts) = cover.divided(fixed)? else { return Ok(None) };
         match &parts[..] {
             [part] if part.is_whole => {
-                let own = self.on_part(part, cover.recipes(fixed))?;
+                let own = self.on_part(&case.model, part, cover.recipes(fixed))?;
                 Ok(own.has_states().then_some(own))
             }
             _ => Ok(None),
@@ -172,8 +172,10 @@ impl Sampler {
             };
             let solved = solution.point(model, parameters, state);
             let bounds = ranges(case, solution, &solved.made);
-            let facts: Vec<Expr> =
-                solved.facts.iter().map(|(value, _)| *value).chain(bounds).collect();
+            let point = &solved.made[model.free_components()..];
+            let chosen = level::signs(model, kept, point, &solution.halves());
+            let facts = solved.facts.iter().map(|(value, _)| *value);
+            let facts: Vec<Expr> = facts.chain(bounds).chain(chosen).collect();
             let guarded = guarded(&solved.made, facts.iter().copied());
             (solved.made, guarded, facts, solved.pivots)
         })?;
@@ -220,14 +222,15 @@ impl Sampler {
     }
 
     /// Makes a sampler of the states on a part of the same place, with their own distributions.
-    pub fn on_part(&self, part: &Part, recipes: Vec<Draw>) -> Result<Self, Fault> {
+    pub fn on_part(&self, model: &Model, part: &Part, recipes: Vec<Draw>) -> Result<Self, Fault> {
         let (graph, made) = record(part.graph.inputs(), |inputs| {
             let all: Vec<Expr> = part.made.iter().chain(&part.facts).copied().collect();
             let reached = part.graph.reached(all.iter().copied());
             let values = part.graph.repeated(&reached, inputs);
             let at = |value: &Expr| values[part.graph.place(*value)];
             let mut made = all.iter().map(at).collect::<Option<Vec<Expr>>>()?;
-            let facts = made.split_off(part.made.len());
+            let mut facts = made.split_off(part.made.len());
+            facts.extend(level::signs(model, &self.kept, &made[model.free_components()..], &[]));
             let guarded = guarded(&made, facts.iter().copied());
             Some((made, facts, guarded))
         })?;

@@ -3,9 +3,9 @@
 use super::ranges::inside;
 use super::unmet::LevelFactors;
 use crate::case::Case;
-use crate::graph::Fault;
-use crate::level::Newton;
-use crate::number::ball::Balls;
+use crate::graph::{Evaluator, Fault, Tape, record};
+use crate::level::{self, Newton};
+use crate::number::ball::{Ball, Balls};
 
 /// Newton's method for a level, with the ranges of the coordinates.
 #[derive(Clone)]
@@ -16,11 +16,19 @@ pub(super) struct NumericalLevel {
     parameters: usize,
     /// Range of each coordinate of the state that has one.
     ranges: Vec<Option<(f64, f64)>>,
+    /// Values that are positive on the halves of the level that the file chooses.
+    signs: Option<Tape>,
 }
 
 impl NumericalLevel {
     pub(super) fn new(case: &Case, kept: &[bool]) -> Result<Self, Fault> {
+        let model = &case.model;
+        let free = model.free_components();
+        let (graph, signs) = record(free + model.dimension(), |inputs| {
+            level::signs(model, kept, &inputs[free..], &[])
+        })?;
         Ok(Self {
+            signs: (!signs.is_empty()).then(|| Tape::new(&graph, &signs)),
             newton: Newton::new(&case.model, kept)?,
             factors: LevelFactors::new(case, kept)?,
             parameters: case.model.free_components(),
@@ -31,13 +39,25 @@ impl NumericalLevel {
     /// Moves states to the level; lanes where that fails, or that may leave a range, become undefined.
     pub(super) fn project<const N: usize>(&self, values: &mut [Balls<N>]) {
         self.newton.project(values);
+        let on_halves = self.on_halves(values);
         for lane in 0..N {
-            if self.position(values, lane) != Position::Inside {
+            if self.position(values, lane) != Position::Inside || !on_halves[lane] {
                 for block in &mut values[self.parameters..] {
                     (block.mid[lane], block.rad[lane]) = (f64::NAN, f64::NAN);
                 }
             }
         }
+    }
+
+    /// Whether the box of each state lies in the halves of the level that the file chooses.
+    fn on_halves<const N: usize>(&self, values: &[Balls<N>]) -> [bool; N] {
+        let Some(tape) = &self.signs else { return [true; N] };
+        let mut evaluator = Evaluator::new(tape, Ball::<N>);
+        evaluator.run(values);
+        let outputs: Vec<&Balls<N>> = evaluator.outputs().collect();
+        std::array::from_fn(|lane| {
+            outputs.iter().all(|own| own.excludes_zero(lane) && own.mid[lane] > 0.0)
+        })
     }
 
     /// Whether one of these states moves to a point that may be an end of a range.

@@ -23,7 +23,7 @@ fn claims_that_say_nothing_are_told() {
         ("invariant-relation = 'x² + y² − 100'\ncofactor = '0'", "contains no state"),
         ("symmetry-field = { x = '0', y = '0' }", "a multiple of the field"),
         ("symmetry-field = { x = '(x²+y²)*y', y = '−(x²+y²)*x' }", "a multiple of the field"),
-        ("lyapunov = '3'", "F is a constant"),
+        ("lyapunov = '3'", "the slope of F is 0"),
         ("form = { x = '0' }", "the form is 0"),
         ("lax = { L = '[[1,0],[0,2]]', A = '[[0,0],[0,0]]' }", "tr Lᵏ is constant"),
         ("lax = { L = '[[0,0,0],[x,0,0],[y,0,0]]', A = '[[0,0,0],[0,0,−1],[0,1,0]]' }", "tr Lᵏ"),
