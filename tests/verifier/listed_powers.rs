@@ -186,3 +186,22 @@ fn powers_of_negative_numbers_have_values_for_listed_whole_exponents() {
     let found: Vec<Verdict> = report.claims.iter().map(|claim| claim.verdict).collect();
     assert_eq!(found, [Verdict::Proved, Verdict::Proved, Verdict::Refuted]);
 }
+
+#[test]
+fn negative_bases_in_the_equations_of_motion_have_whole_powers() {
+    let verdicts = |exponents: &str, claim: &str| {
+        let text = format!(
+            "title = \"t\"\n[parameters]\na = \"one of {exponents}\"\n[state]\nx = \"-2..-1\"\n[field]\n\
+             \"x'\" = \"x^a\"\n[[claim]]\n{claim}\n"
+        );
+        let case = Case::parse(&text, &[]).unwrap_or_else(|error| panic!("{error}\n{text}"));
+        judge(&case, &Options::default()).map(|found| found.claims[0].verdict)
+    };
+    for exponents in ["1, 2", "2", "-1, 3", "2, 1/2"] {
+        let of = |claim: &str| verdicts(exponents, claim).expect(exponents);
+        assert_eq!(of("identity = \"x' = x^a\""), Verdict::Proved, "{exponents}");
+        assert_eq!(of("identity = \"x' = 2*x^a\""), Verdict::Refuted, "{exponents}");
+        assert_eq!(of("integral = \"x\""), Verdict::Refuted, "{exponents}");
+    }
+    assert!(verdicts("1/2, 1/3", "integral = \"x\"").is_err(), "no power has a value");
+}

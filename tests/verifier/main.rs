@@ -62,6 +62,7 @@ mod roots_of_levels;
 mod samples;
 mod signs_of_rates;
 mod silent_states;
+mod singular_bodies;
 mod small_values;
 mod states_that_count;
 #[path = "../common/stream.rs"]
@@ -71,6 +72,7 @@ mod systems;
 mod textbook;
 mod ties;
 mod time_neighbours;
+mod turning;
 mod user_fields;
 mod values;
 mod verdicts;

@@ -1,5 +1,6 @@
 //! Scope and limits of a search.
 
+use liouville::case::Case;
 use liouville::formula::{Formula, Type};
 use liouville::mechanics::Model;
 use liouville::verdict::Options;
@@ -49,6 +50,20 @@ impl Default for Effort {
             halt: Halt::default(),
             options: Options::default(),
         }
+    }
+}
+
+impl Effort {
+    /// Returns the same for a case made from another one, with those terms that can be read in its names.
+    pub fn in_names_of(&self, case: &Case) -> Self {
+        let of_case = |term: &FurtherTerm| {
+            let text = match term {
+                FurtherTerm::Formula(formula) => formula.text(),
+                FurtherTerm::Text(text) => text,
+            };
+            FurtherTerm::from(text).read(&case.model).ok().map(FurtherTerm::Formula)
+        };
+        Self { terms: self.terms.iter().filter_map(of_case).collect(), ..self.clone() }
     }
 }
 

@@ -22,7 +22,7 @@ pub fn search(
 ) -> Result<(), SearchError> {
     let Some(field) = ExplicitField::of(case)? else { return Ok(()) };
     let mut own = SearchReport::default();
-    super::search(&field.case, effort, further, &mut own, progress)?;
+    super::search(&field.case, &effort.in_names_of(&field.case), further, &mut own, progress)?;
     let has_orbits = !report.orbits.is_empty();
     for found in &own.found {
         effort.halt.check()?;

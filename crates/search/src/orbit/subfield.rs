@@ -29,7 +29,7 @@ pub fn search(
     };
     let Some(part) = part else { return Ok(()) };
     let mut own = SearchReport::default();
-    super::search(&part, effort, further, &mut own, progress)?;
+    super::search(&part, &effort.in_names_of(&part), further, &mut own, progress)?;
     for found in &own.found {
         effort.halt.check()?;
         explicit::take(case, &|text| text.to_string(), found, effort, report)?;

@@ -135,3 +135,17 @@ fn a_density_of_a_constrained_particle_refutes_that_there_is_none() {
     let exhibit = found.evidence.exhibit.unwrap_or_default();
     assert!(exhibit.contains("1 + y²"), "{exhibit}");
 }
+
+#[test]
+fn roots_of_known_integrals_are_read_in_the_names_of_the_independent_velocities() {
+    for slope in ["exp(x)", "sin(x)"] {
+        let text = format!(
+            "kinetic = \"(x'² + y'² + z'²)/2\"\nconstraints = [\"z' = y'*{slope}\"]\n[[claim]]\n\
+             integral = \"√(1 + {slope}^2)*y'\""
+        );
+        let claim = "no-integral = { degree = 1 }";
+        let found = only(&lagrangian(&["x", "y", "z"], &text, claim));
+        // x' is one, too.
+        assert_eq!(found.verdict, Verdict::Refuted, "{slope}: {:?}", found.evidence);
+    }
+}
