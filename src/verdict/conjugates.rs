@@ -26,9 +26,21 @@ pub struct SignChoices {
 pub fn changing_signs(graph: &Graph, values: &[Expr], inputs: &[Draw]) -> Option<Vec<usize>> {
     let reached = graph.reached(values.iter().copied());
     let mut is_affine = vec![false; reached.len()];
+    // Numbers such as π = 4 atan 1 and ln 2 are continued as themselves.
+    let mut is_number = vec![false; reached.len()];
     let mut places = Vec::new();
     for (place, step) in graph.steps().enumerate().filter(|(place, _)| reached[*place]) {
-        let is_constant = |place: usize| matches!(graph.step(place), Step::Constant(_));
+        is_number[place] = match step {
+            Step::Constant(_) => true,
+            Step::Input(_) => false,
+            Step::Unary(_, a) | Step::Power(a, _) => is_number[a],
+            Step::Binary(_, a, b) => is_number[a] && is_number[b],
+        };
+        if is_number[place] {
+            is_affine[place] = true;
+            continue;
+        }
+        let is_constant = |place: usize| is_number[place];
         is_affine[place] = match step {
             Step::Constant(_) => true,
             Step::Input(input) => !matches!(inputs.get(input), Some(Draw::Sign)),

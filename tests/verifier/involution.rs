@@ -262,3 +262,23 @@ fn the_momenta_of_a_lagrangian_need_no_new_variables() {
     let named = mistake(&head, "involution = ['energy', 'p', 'j']\npoisson = 'poisson'");
     assert!(named.contains("components of new variables") || named.contains("poisson"), "{named}");
 }
+
+#[test]
+fn numbers_such_as_pi_stand_in_no_way() {
+    let head = |factor: &str| {
+        format!(
+            "title = 'x'\n[state]\nx = '-1..1'\ny = '-1..1'\np = '-1..1'\nq = '-1..1'\n[hamiltonian]\n\
+             function = '(p² + q² + x² + y²)*{factor}'\npairs = [['x', 'p'], ['y', 'q']]\n"
+        )
+    };
+    for factor in ["1/(4*π)", "ln(2)*√(2)", "atan(1/3)"] {
+        check(
+            &head(factor),
+            &[
+                (Proved, "involution = ['energy', 'x*q − y*p']\ntheorem = 'Liouville'"),
+                (Proved, "involution = ['energy', 'p² + x²']\ntheorem = 'Liouville'"),
+                (Refuted, "involution = ['energy', 'p*x']"),
+            ],
+        );
+    }
+}
