@@ -198,7 +198,8 @@ impl JudgeError {
             }
             JudgeError::Singular(_) => {
                 "look for a division by zero, the root of a negative number, a singular inertia \
-                 tensor, or a kinetic energy that leaves out a velocity"
+                 tensor, a kinetic energy that leaves out a velocity, or constraints that follow from each other \
+                 where they hold"
             }
             JudgeError::Slopeless(..) => {
                 "write an equation with the same zeros and other slopes, as x' = y*z' in the place of \
