@@ -47,7 +47,7 @@ impl Judging<'_> {
             None => vec![&whole],
         };
         for sampler in samplers {
-            match self.split_draws(sampler, item, &residual)? {
+            match self.split_draws(sampler, &whole, (item, &residual))? {
                 Some(more) => split.extend(more),
                 None => return Ok(None),
             }
@@ -79,15 +79,15 @@ impl Judging<'_> {
     /// file: ln X belongs to what a claim requires for each power X^a with a parameter a, while the same
     /// whole number in the file takes any base.
     ///
-    /// `residual` is what vanishes if the claim holds.
+    /// The sampler is that of the whole place, or of a part of it. `residual` is what vanishes if the claim holds.
     pub(super) fn split_draws(
         &self,
         sampler: &Sampler,
-        item: &RecordedClaim<'_>,
-        residual: &[Expr],
+        whole: &Sampler,
+        (item, residual): (&RecordedClaim<'_>, &[Expr]),
     ) -> Result<SplitDraws, Fault> {
         let mut split = BTreeSet::new();
-        if !sampler.recipes().iter().any(|own| matches!(own, Draw::OneOf(_))) {
+        if !whole.recipes().iter().any(|own| matches!(own, Draw::OneOf(_))) {
             return Ok(Some(split));
         }
         let common = self.common.required_at(sampler.kept());
@@ -99,13 +99,14 @@ impl Judging<'_> {
         }
         let Some(choices) = combinations(sampler.recipes()) else { return Ok(None) };
         let extents = sampler.extents();
-        let is_listed = |draw: &usize| matches!(sampler.recipes()[*draw], Draw::OneOf(_));
+        let is_listed = |draw: &usize| matches!(whole.recipes()[*draw], Draw::OneOf(_));
         for fixed in choices {
             let (graph, drawn) = sampler.compose(self.graph, &own, &fixed)?;
             for index in lost_bases(&graph, &drawn, &extents) {
                 let inputs = self.graph.inputs_of(own[index][1]).into_iter();
-                let values = inputs.filter_map(|input| sampler.made().get(input));
-                split.extend(values.flat_map(|value| sampler.graph().inputs_of(*value)));
+                // On a part of a level listed values are numbers already.
+                let values = inputs.filter_map(|input| whole.made().get(input));
+                split.extend(values.flat_map(|value| whole.graph().inputs_of(*value)));
             }
             let (graph, values) = with_listed(sampler.graph(), &made, &fixed)?;
             for index in lost_bases(&graph, &values, &extents) {

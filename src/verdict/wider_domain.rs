@@ -156,7 +156,8 @@ impl Judging<'_> {
         for (asked, answer) in asked.into_iter().zip(answers) {
             // A whole exponent from a list counts for negative bases, too, if it is a number in the file.
             if matches!(answer, Some(Answer::Zero(_))) {
-                let split = self.split_draws(&sampler, asked.item, &asked.query.outputs)?;
+                let split =
+                    self.split_draws(&sampler, &sampler, (asked.item, &asked.query.outputs))?;
                 if split.is_none_or(|draws| !draws.is_empty()) {
                     continue;
                 }

@@ -205,3 +205,27 @@ fn negative_bases_in_the_equations_of_motion_have_whole_powers() {
     }
     assert!(verdicts("1/2, 1/3", "integral = \"x\"").is_err(), "no power has a value");
 }
+
+#[test]
+fn exponents_are_split_on_parts_of_levels() {
+    let verdict = |exponents: &str, level: &str, claim: &str| {
+        let text = format!(
+            "title = 't'\n[parameters]\nn = 'one of {exponents}'\n[state]\nx = '-2..2'\ny = '-2..2'\nz = '-2..2'\n\
+             [field]\n\"x'\" = '0'\n\"y'\" = '0'\n\"z'\" = '0'\n[level]\nequations = ['{level}']\n\
+             [[claim]]\n{claim}\n"
+        );
+        let case = Case::parse(&text, &[]).unwrap_or_else(|error| panic!("{error}\n{text}"));
+        judge(&case, &Options::default()).expect("a report").claims[0].verdict
+    };
+    for level in
+        ["abs(x) + abs(z) = 1", "max(x, z) = 0", "sin(x)*z = 0", "x + abs(x) = 0", "x*z = 0"]
+    {
+        for claim in ["y^n = abs(y)^n", "y^(2*n − 1) = abs(y)^(2*n − 1)"] {
+            let own = format!("identity = '{claim}'");
+            assert_eq!(verdict("1, 3", level, &own), Verdict::Refuted, "{level}: {claim}");
+        }
+        let even = "identity = 'y^n = abs(y)^n'";
+        assert_eq!(verdict("2, 4", level, even), Verdict::Proved, "{level}");
+        assert_eq!(verdict("1/2, 4", level, even), Verdict::Proved, "{level}");
+    }
+}
