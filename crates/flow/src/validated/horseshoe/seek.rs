@@ -25,11 +25,12 @@ use liouville::number::double_double::DoubleDouble;
 use liouville::number::rational::Rational;
 use liouville::scalar::Scalar;
 
-/// Distance of the first starts, and the largest distance of crossings, against the saddle's state.
+/// Distance of the first starts against the saddle's state.
 const BEGIN: f64 = 1e-3;
-const NEAR: f64 = 0.05;
-/// Number of starts on each side.
-const STARTS: usize = 200;
+/// Largest distances of crossings against the saddle's state, with the numbers of starts on each side:
+/// the next pair is tried where the one before finds nothing. Far from the saddle its stable curve
+/// bends, and what is found there may be none.
+const LOOKS: [(f64, usize); 2] = [(0.05, 200), (0.15, 600)];
 /// Number of periods for which motions are followed.
 const PERIODS: f64 = 10.0;
 /// Share of a period by which crossings of neighbouring motions may differ in time.
@@ -64,7 +65,8 @@ pub struct Seeker<'s> {
     shooting: &'s Shooting,
     saddle: &'s Saddle,
     program: TaylorProgram,
-    near: f64,
+    /// Size of the saddle's state.
+    size: f64,
 }
 
 impl<'s> Seeker<'s> {
@@ -84,7 +86,7 @@ impl<'s> Seeker<'s> {
             vec![terms.fold(zero, |sum, ((x, n), o)| sum + number(*n) * (*x - number(*o)))]
         })?;
         let size = home.origin.iter().map(|x| x * x).sum::<f64>().sqrt();
-        Ok(Self { shooting, saddle, program, near: NEAR * size })
+        Ok(Self { shooting, saddle, program, size })
     }
 
     /// State at a distance along the unstable direction.
@@ -97,26 +99,36 @@ impl<'s> Seeker<'s> {
 
     /// Finds homoclinic orbits, the shortest first.
     pub fn find(&self) -> Result<Vec<Homoclinic>, Obstacle> {
-        let begin = BEGIN / NEAR * self.near;
+        for (near, count) in LOOKS {
+            let found = self.found(near * self.size, count)?;
+            if !found.is_empty() {
+                return Ok(found);
+            }
+        }
+        Ok(Vec::new())
+    }
+
+    /// The same by crossings up to this distance, with `count` starts on each side.
+    fn found(&self, near: f64, count: usize) -> Result<Vec<Homoclinic>, Obstacle> {
+        let begin = BEGIN * self.size;
         let growth = self.saddle.multipliers[0].abs();
         let starts: Vec<f64> = [1.0, -1.0]
             .iter()
             .flat_map(|side| {
-                (0..=STARTS)
-                    .map(move |k| side * begin * libm::pow(growth, k as f64 / STARTS as f64))
+                (0..=count).map(move |k| side * begin * libm::pow(growth, k as f64 / count as f64))
             })
             .collect();
-        let found = self.crossings(&starts)?;
+        let found = self.crossings(&starts, near)?;
         let mut all = Vec::new();
         for (index, pair) in found.windows(2).enumerate() {
-            if index == STARTS {
+            if index == count {
                 continue;
             }
             for crossing in pair[0].iter().filter(|crossing| crossing.returned) {
                 let Some(other) = self.partner(crossing, &pair[1]) else { continue };
                 if other.at[0] * crossing.at[0] <= 0.0 {
                     let ends = [starts[index], starts[index + 1]];
-                    all.extend(self.refined(ends, crossing.clone(), other.clone())?);
+                    all.extend(self.refined(ends, [crossing, other], near)?);
                 }
             }
         }
@@ -139,15 +151,16 @@ impl<'s> Seeker<'s> {
     fn refined(
         &self,
         ends: [f64; 2],
-        mut left: SaddleCrossing,
-        mut right: SaddleCrossing,
+        crossings: [&SaddleCrossing; 2],
+        near: f64,
     ) -> Result<Option<Homoclinic>, Obstacle> {
         let [mut from, mut to] = ends;
+        let [mut left, mut right] = crossings.map(Clone::clone);
         for _ in 0..ROUNDS {
             let inner: Vec<f64> = (1..=MOTION_LANES)
                 .map(|k| from + (to - from) * k as f64 / (MOTION_LANES + 1) as f64)
                 .collect();
-            let found = self.crossings(&inner)?;
+            let found = self.crossings(&inner, near)?;
             for (start, crossings) in inner.iter().zip(&found) {
                 let Some(crossing) = self.partner(&left, crossings) else { return Ok(None) };
                 if (crossing.at[0] > 0.0) == (left.at[0] > 0.0) {
@@ -159,14 +172,14 @@ impl<'s> Seeker<'s> {
             }
         }
         // Where the two motions end far from each other the coordinate jumps.
-        let is_continuous = (left.at[0] - right.at[0]).abs() < 1e-4 * self.near;
+        let is_continuous = (left.at[0] - right.at[0]).abs() < 1e-4 * near;
         let (start, time, end) = ((from + to) / 2.0, left.time, left.at[1]);
         Ok(is_continuous.then_some(Homoclinic { start, time, end }))
     }
 
     /// Follows motions from distances along the unstable direction, and returns their crossings
     /// near the saddle.
-    fn crossings(&self, starts: &[f64]) -> Result<Vec<Vec<SaddleCrossing>>, Obstacle> {
+    fn crossings(&self, starts: &[f64], near: f64) -> Result<Vec<Vec<SaddleCrossing>>, Obstacle> {
         let until = PERIODS * self.saddle.period();
         let mut stepper = Stepper::<Lanes<MOTION_LANES>>::new(&self.program, Accuracy::FLOAT);
         let mut found = Vec::new();
@@ -197,7 +210,7 @@ impl<'s> Seeker<'s> {
                         }
                     }
                     if !sides[lane].pass(&ends, lane) {
-                        self.note(&stepper, lane, &mut sides[lane], &mut tracks[lane]);
+                        self.note(&stepper, (lane, near), &mut sides[lane], &mut tracks[lane]);
                     }
                 }
                 stepper.advance();
@@ -211,7 +224,7 @@ impl<'s> Seeker<'s> {
     fn note(
         &self,
         stepper: &Stepper<Lanes<MOTION_LANES>>,
-        lane: usize,
+        (lane, near): (usize, f64),
         sides: &mut Sides,
         track: &mut Vec<SaddleCrossing>,
     ) {
@@ -220,7 +233,7 @@ impl<'s> Seeker<'s> {
         for event in sides.events(&piece.output(0), piece.length(), doubt) {
             let Event::Crossing { after, rising: true } = event else { continue };
             let state: Vec<f64> = piece.state(after).iter().map(|x| x.hi).collect();
-            if distance(&state, &self.saddle.home.origin) > self.near {
+            if distance(&state, &self.saddle.home.origin) > near {
                 continue;
             }
             let time = piece.begin().hi + after;
