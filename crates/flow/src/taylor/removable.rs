@@ -319,6 +319,15 @@ mod tests {
     }
 
     #[test]
+    fn no_series_is_made_where_no_dividend_is_0() {
+        let (graph, factors) = record(2, |x| [x[1] + x[0].cos(), x[0].sin()]).expect("records");
+        let [dividend, divisor] = factors.map(|factor| graph.place(factor));
+        let mut germs = Germs::new(&graph);
+        assert!(Removable::of(&mut germs, &[(dividend, 1), (divisor, -1)]).is_none());
+        assert_eq!(germs.count(), 0);
+    }
+
+    #[test]
     fn poles_and_rational_quotients_have_none() {
         assert!(found(|x| [x.cos(), x]).is_none(), "a pole");
         assert!(found(|x| [x.sin(), x * x]).is_none(), "a pole of sin x/x²");

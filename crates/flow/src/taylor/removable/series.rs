@@ -25,6 +25,12 @@ impl<'g> Germs<'g> {
         Self { graph, known: Vec::new() }
     }
 
+    /// Number of series made.
+    #[cfg(test)]
+    pub(super) fn count(&self) -> usize {
+        self.known.iter().map(|(_, own)| own.len()).sum()
+    }
+
     /// Series of a step in v, and whether functions enter it.
     pub(super) fn of(&mut self, place: usize, v: &Affine) -> Option<&(Germ, bool)> {
         let parts = parts(self.graph, place)?;

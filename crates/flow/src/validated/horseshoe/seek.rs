@@ -27,18 +27,31 @@ use liouville::scalar::Scalar;
 
 /// Distance of the first starts against the saddle's state.
 const BEGIN: f64 = 1e-3;
-/// Largest distances of crossings against the saddle's state, with the numbers of starts on each side:
-/// the next pair is tried where the one before finds nothing. Far from the saddle its stable curve
-/// bends, and what is found there may be none.
-const LOOKS: [(f64, usize); 2] = [(0.05, 200), (0.15, 600)];
-/// Number of periods for which motions are followed.
+/// Looks at motions: the next is taken where the one before finds nothing.
+const LOOKS: [Look; 2] =
+    [Look { near: 0.05, starts: 200, ways: 0.0 }, Look { near: 0.15, starts: 600, ways: 2.0 }];
+/// Number of periods for which motions are followed, without the ways away from the saddle and back.
 const PERIODS: f64 = 10.0;
+/// Number of homoclinic orbits after which no others are looked for.
+const MOST_FOUND: usize = 4;
 /// Share of a period by which crossings of neighbouring motions may differ in time.
 const ABREAST: f64 = 0.1;
 /// Share of a period between two crossings near the saddle beyond which a motion was away.
 const AWAY: f64 = 1.5;
 /// Number of rounds of refinement, by a factor of `MOTION_LANES` + 1 each.
 const ROUNDS: usize = 14;
+
+/// Extent of a search.
+#[derive(Clone, Copy, Debug)]
+struct Look {
+    /// Largest distance of crossings against the saddle's state. Far from the saddle its stable curve
+    /// bends, and a zero found there may be none.
+    near: f64,
+    /// Number of starts on each side.
+    starts: usize,
+    /// Number of ways between the first starts and this distance that motions have time for.
+    ways: f64,
+}
 
 /// Crossing of the saddle's surface near the saddle.
 #[derive(Clone, Debug)]
@@ -99,18 +112,19 @@ impl<'s> Seeker<'s> {
 
     /// Finds homoclinic orbits, the shortest first.
     pub fn find(&self) -> Result<Vec<Homoclinic>, Obstacle> {
-        for (near, count) in LOOKS {
-            let found = self.found(near * self.size, count)?;
-            if !found.is_empty() {
+        for look in LOOKS {
+            let (found, come_back) = self.found(look)?;
+            // Where most of one side come back, the curves are one, and more motions show no more.
+            if !found.is_empty() || come_back {
                 return Ok(found);
             }
         }
         Ok(Vec::new())
     }
 
-    /// The same by crossings up to this distance, with `count` starts on each side.
-    fn found(&self, near: f64, count: usize) -> Result<Vec<Homoclinic>, Obstacle> {
-        let begin = BEGIN * self.size;
+    /// The same by one look; returns too whether most of the motions of a side come back near the saddle.
+    fn found(&self, look: Look) -> Result<(Vec<Homoclinic>, bool), Obstacle> {
+        let (begin, count) = (BEGIN * self.size, look.starts);
         let growth = self.saddle.multipliers[0].abs();
         let starts: Vec<f64> = [1.0, -1.0]
             .iter()
@@ -118,22 +132,30 @@ impl<'s> Seeker<'s> {
                 (0..=count).map(move |k| side * begin * libm::pow(growth, k as f64 / count as f64))
             })
             .collect();
-        let found = self.crossings(&starts, near)?;
-        let mut all = Vec::new();
-        for (index, pair) in found.windows(2).enumerate() {
-            if index == count {
-                continue;
-            }
+        let crossings = self.crossings(&starts, look)?;
+        let mut pairs = Vec::new();
+        for (index, pair) in crossings.windows(2).enumerate().filter(|(index, _)| *index != count) {
             for crossing in pair[0].iter().filter(|crossing| crossing.returned) {
                 let Some(other) = self.partner(crossing, &pair[1]) else { continue };
                 if other.at[0] * crossing.at[0] <= 0.0 {
-                    let ends = [starts[index], starts[index + 1]];
-                    all.extend(self.refined(ends, [crossing, other], near)?);
+                    pairs.push((index, crossing, other));
                 }
             }
         }
-        all.sort_by(|a, b| a.time.total_cmp(&b.time));
-        Ok(all)
+        pairs.sort_by(|(_, a, _), (_, b, _)| a.time.total_cmp(&b.time));
+        let mut all = Vec::new();
+        for (index, crossing, other) in pairs {
+            if all.len() == MOST_FOUND {
+                break;
+            }
+            let ends = [starts[index], starts[index + 1]];
+            all.extend(self.refined(ends, [crossing, other], look)?);
+        }
+        all.sort_by(|a: &Homoclinic, b| a.time.total_cmp(&b.time));
+        let back = |side: &[Vec<SaddleCrossing>]| {
+            2 * side.iter().filter(|own| own.iter().any(|one| one.returned)).count() > side.len()
+        };
+        Ok((all, crossings.chunks(count + 1).any(back)))
     }
 
     /// Crossing of another motion at about the same time.
@@ -152,7 +174,7 @@ impl<'s> Seeker<'s> {
         &self,
         ends: [f64; 2],
         crossings: [&SaddleCrossing; 2],
-        near: f64,
+        look: Look,
     ) -> Result<Option<Homoclinic>, Obstacle> {
         let [mut from, mut to] = ends;
         let [mut left, mut right] = crossings.map(Clone::clone);
@@ -160,7 +182,7 @@ impl<'s> Seeker<'s> {
             let inner: Vec<f64> = (1..=MOTION_LANES)
                 .map(|k| from + (to - from) * k as f64 / (MOTION_LANES + 1) as f64)
                 .collect();
-            let found = self.crossings(&inner, near)?;
+            let found = self.crossings(&inner, look)?;
             for (start, crossings) in inner.iter().zip(&found) {
                 let Some(crossing) = self.partner(&left, crossings) else { return Ok(None) };
                 if (crossing.at[0] > 0.0) == (left.at[0] > 0.0) {
@@ -172,15 +194,17 @@ impl<'s> Seeker<'s> {
             }
         }
         // Where the two motions end far from each other the coordinate jumps.
-        let is_continuous = (left.at[0] - right.at[0]).abs() < 1e-4 * near;
+        let is_continuous = (left.at[0] - right.at[0]).abs() < 1e-4 * look.near * self.size;
         let (start, time, end) = ((from + to) / 2.0, left.time, left.at[1]);
         Ok(is_continuous.then_some(Homoclinic { start, time, end }))
     }
 
     /// Follows motions from distances along the unstable direction, and returns their crossings
     /// near the saddle.
-    fn crossings(&self, starts: &[f64], near: f64) -> Result<Vec<Vec<SaddleCrossing>>, Obstacle> {
-        let until = PERIODS * self.saddle.period();
+    fn crossings(&self, starts: &[f64], look: Look) -> Result<Vec<Vec<SaddleCrossing>>, Obstacle> {
+        let near = look.near * self.size;
+        let way = libm::log(look.near / BEGIN) / libm::log(self.saddle.multipliers[0].abs());
+        let until = (PERIODS + look.ways * way) * self.saddle.period();
         let mut stepper = Stepper::<Lanes<MOTION_LANES>>::new(&self.program, Accuracy::FLOAT);
         let mut found = Vec::new();
         for group in starts.chunks(MOTION_LANES) {
