@@ -29,7 +29,7 @@ use liouville::scalar::Scalar;
 const BEGIN: f64 = 1e-3;
 /// Looks at motions: the next is taken where the one before finds nothing.
 const LOOKS: [Look; 2] =
-    [Look { near: 0.05, starts: 200, ways: 0.0 }, Look { near: 0.15, starts: 600, ways: 2.0 }];
+    [Look { near: 0.05, starts: 200, ways: 0.0 }, Look { near: 0.15, starts: 400, ways: 2.0 }];
 /// Number of periods for which motions are followed, without the ways away from the saddle and back.
 const PERIODS: f64 = 10.0;
 /// Number of homoclinic orbits after which no others are looked for.
