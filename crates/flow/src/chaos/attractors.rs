@@ -21,6 +21,9 @@ const ARRIVING: f64 = 0.1;
 /// Ratio of the sizes of the first and the last quarter of a motion and the one from its end on, below
 /// which they count as different: 80 samples show the size of a cycle to about a hundredth.
 const STEADY: f64 = 0.9;
+/// Distance between the ends of a motion's samples, against the size of the earlier half of them, from
+/// which on it runs away: what grows exponentially has most of its samples near the first.
+const RUNAWAY: f64 = 100.0;
 /// Largest number of sets.
 pub const MOST_SETS: usize = 32;
 
@@ -72,7 +75,8 @@ impl Tail {
         let [before, after] = farther_and_nearer(&rows);
         let arrives = after <= NONE.max(ARRIVING * before);
         let rest = arrives.then_some(after.max(NONE));
-        Self { rows, spread, rest, is_settled: returns || arrives }
+        let is_settled = (returns || arrives) && !runs_away(&rows);
+        Self { rows, spread, rest, is_settled }
     }
 
     /// Whether the motion returns to where it was.
@@ -150,6 +154,13 @@ impl Tail {
         distance(&self.rows, &other.rows, false, across) <= reach
             && distance(&other.rows, &self.rows, false, across) <= reach
     }
+}
+
+/// Whether the last sample is far away from all earlier ones.
+fn runs_away(rows: &[Sample]) -> bool {
+    let (Some(first), Some(last)) = (rows.first(), rows.last()) else { return false };
+    let early = rows[..rows.len() / 2].iter().map(|row| squared(row, first)).fold(0.0, f64::max);
+    squared(first, last).sqrt() > NONE.max(RUNAWAY * early.sqrt())
 }
 
 /// Largest distances from the last sample in the earlier and in the later half.
@@ -314,6 +325,7 @@ mod tests {
         assert!(!tail(|t| [(1.0 - t / 160.0).powi(2), 0.0]).is_settled(), "a stop");
         assert!(!tail(|t| [t, 0.0]).is_settled(), "a line");
         assert!(!tail(|t| [(t / 30.0).exp(), 0.0]).is_settled(), "growth");
+        assert!(!tail(|t| [(t - 160.0).exp(), 0.0]).is_settled(), "growth far beyond the widths");
         assert!(!tail(|t| [t / 40.0, t.sin()]).is_settled(), "a slow drift");
         assert!(!circle(1.0, 1000.0, 0.0).is_settled(), "a part of a turn");
     }

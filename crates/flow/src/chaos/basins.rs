@@ -206,8 +206,13 @@ impl Found {
 
     fn add(&mut self, places: &[usize], tails: Vec<Late>) {
         if self.widths.is_empty() {
-            let seen = tails.iter().flatten();
-            self.widths = widths(seen.flat_map(|own| own.rows.iter().chain([&own.first])));
+            let rows = |own: &LateSamples| match keeps_to_itself(own) {
+                true => own.rows.clone(),
+                false => Vec::new(),
+            };
+            let kept: Vec<Vec<f64>> = tails.iter().flatten().flat_map(rows).collect();
+            let starts = tails.iter().flatten().map(|own| &own.first);
+            self.widths = widths(starts.chain(&kept));
         }
         for (place, late) in places.iter().zip(tails) {
             self.ends[*place] = match late {
@@ -350,6 +355,13 @@ fn contracts(found: &Exponents) -> bool {
     let Estimate { mean, error, later } = found.largest;
     let least = CONTRACTION / found.time.abs();
     mean < -3.0 * error - least && later < -least
+}
+
+/// Whether a motion is settled in its own widths. Those of one that runs away would make everything
+/// else a point.
+fn keeps_to_itself(own: &LateSamples) -> bool {
+    let own_widths = widths(own.rows.iter().chain([&own.first]));
+    Tail::new(&own.rows, &own.ways, &own_widths).is_settled()
 }
 
 /// Smallest and largest value of each component.

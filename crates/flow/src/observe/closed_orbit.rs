@@ -251,8 +251,23 @@ pub(super) fn compare_period(stated: &Stated, period: Enclosure, judgement: &mut
         let reason = "an enclosure does not prove that the period is exactly";
         judgement.leave_open(format!("{reason} {}: write a decimal", stated.text));
     } else if !is_inside {
-        judgement.leave_open("the enclosure of the period is wider than the digits".to_string());
+        let digits = known_digits(period)
+            .map_or_else(String::new, |known| format!(": state {known}, whose digits are proved"));
+        judgement
+            .leave_open(format!("the enclosure of the period is wider than the digits{digits}"));
     }
+}
+
+/// Longest decimal that an enclosed period proves to one unit of its last digit.
+fn known_digits(period: Enclosure) -> Option<String> {
+    let rounded = |decimals: usize| {
+        let text = format!("{:.decimals$}", period.mid);
+        let value: f64 = text.parse().ok()?;
+        let rounding = 4.0 * f64::EPSILON * (period.mid.abs() + value.abs());
+        let gap = (period.mid - value).abs() + period.rad + rounding;
+        (gap < libm::pow(10.0, -(decimals as f64))).then_some(text)
+    };
+    (1..=MOST_DECIMALS).rev().find_map(rounded)
 }
 
 /// Prints a bound with one digit, rounded up.
@@ -285,6 +300,8 @@ fn decimal(x: f64, decimals: usize) -> String {
     }
 }
 
+/// Largest number of decimals of a period that is suggested.
+const MOST_DECIMALS: usize = 15;
 /// Number of decimals of the state in a theorem.
 const DECIMALS: usize = 12;
 
@@ -335,6 +352,15 @@ fn theorem(
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_digits_that_are_known_are_proved() {
+        let known = |mid, rad| known_digits(Enclosure::about(mid, rad));
+        // 5.88109 is off by 1.5e-6, and the radius takes more than the rest of its unit
+        assert_eq!(known(5.881_088_46, 5e-5).as_deref(), Some("5.8811"));
+        assert_eq!(known(6.982_757_465, 2e-5).as_deref(), Some("6.9828"));
+        assert_eq!(known(6.5, 0.2), None);
+    }
 
     #[test]
     fn printed_enclosures_are_true() {

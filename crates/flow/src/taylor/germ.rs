@@ -285,7 +285,11 @@ impl Germ {
 }
 
 fn multiplied(x: &[Rational], y: &[Rational]) -> Vec<Rational> {
-    let at = |n: usize| (0..=n).fold(number(0), |sum, k| &sum + &(&x[k] * &y[n - k]));
+    let at = |n: usize| {
+        let pairs = (0..=n).map(|k| (&x[k], &y[n - k]));
+        let pairs = pairs.filter(|(a, b)| !a.is_zero() && !b.is_zero());
+        pairs.fold(number(0), |sum, (a, b)| &sum + &(a * b))
+    };
     (0..LENGTH).map(at).collect()
 }
 

@@ -4,7 +4,7 @@
 //! A Taylor program has a row s = ±1 for the sign of x, which is constant over a step, and |x| is s x.
 //! Quotients of both, as in slopes of |x|, are s alone, also where x is 0.
 
-use crate::taylor::removable::Removable;
+use crate::taylor::removable::{Germs, Removable};
 use crate::taylor::saturating::{Saturating, area, exponent, hyperbolic, logistic};
 use liouville::graph::{Expr, Graph, Step};
 use liouville::number::rational::Rational;
@@ -116,19 +116,20 @@ impl Simpler {
 
     /// Replaces quotients whose limits are proved. Nothing may cancel, for it is as written that the
     /// field has a value.
-    fn proved(graph: &Graph, place: usize) -> Option<Self> {
-        let mut simpler = Self::whole(graph, place).filter(|own| !own.rest.cancels)?;
-        simpler.limits(graph);
+    fn proved(germs: &mut Germs<'_>, place: usize) -> Option<Self> {
+        let mut simpler = Self::whole(germs.graph, place).filter(|own| !own.rest.cancels)?;
+        simpler.limits(germs);
         let is_proved = simpler.limits.iter().all(|own| own.proved.is_some());
         (is_proved && !simpler.limits.is_empty()).then_some(simpler)
     }
 
     /// Replaces the quotients in the product at a place. `None` where there are none.
-    pub(super) fn of(graph: &Graph, place: usize) -> Option<Self> {
+    pub(super) fn of(germs: &mut Germs<'_>, place: usize) -> Option<Self> {
+        let graph = germs.graph;
         let mut simpler = Self::whole(graph, place)?;
         simpler.signs(graph)?;
         let has_roots = simpler.roots(graph)?;
-        simpler.limits(graph);
+        simpler.limits(germs);
         simpler.saturating(graph);
         let is_simpler = has_roots || !simpler.factors.is_empty() || !simpler.limits.is_empty();
         is_simpler.then_some(simpler)
@@ -192,8 +193,8 @@ impl Simpler {
     }
 
     /// Takes out quotients that have limits where their divisors are 0.
-    fn limits(&mut self, graph: &Graph) {
-        while let Some(found) = Removable::of(graph, &self.rest.factors) {
+    fn limits(&mut self, germs: &mut Germs<'_>) {
+        while let Some(found) = Removable::of(germs, &self.rest.factors) {
             found.factors.iter().for_each(|(place, power)| self.rest.add(*place, -power));
             self.limits.push(found);
         }
@@ -293,7 +294,7 @@ impl Needed {
     fn with(
         graph: &Graph,
         wanted: &[usize],
-        simplify: impl Fn(&Graph, usize) -> Option<Simpler>,
+        simplify: impl Fn(&mut Germs<'_>, usize) -> Option<Simpler>,
         argument: impl Fn(usize) -> Option<usize>,
     ) -> Self {
         let (mut places, mut simpler) = (graph.reached_from(wanted), vec![None; graph.len()]);
@@ -307,13 +308,14 @@ impl Needed {
         if !(0..graph.len()).any(|place| places[place] && is_part(place)) {
             return Self { places, simpler };
         }
+        let mut germs = Germs::new(graph);
         places.fill(false);
         wanted.iter().for_each(|place| places[*place] = true);
         for place in (0..graph.len()).rev() {
             if !places[place] {
                 continue;
             }
-            simpler[place] = simplify(graph, place);
+            simpler[place] = simplify(&mut germs, place);
             match &simpler[place] {
                 Some(own) => own.arguments().for_each(|argument| places[argument] = true),
                 None => match argument(place) {
@@ -352,7 +354,7 @@ mod tests {
 
     fn simpler(build: impl Fn(Expr, Expr) -> Expr) -> Option<Simpler> {
         let (graph, value) = record(2, |x| build(x[0], x[1])).expect("records");
-        Simpler::of(&graph, graph.place(value))
+        Simpler::of(&mut Germs::new(&graph), graph.place(value))
     }
 
     #[test]
@@ -377,7 +379,8 @@ mod tests {
         let one = || Expr::rational(&Rational::from(1));
         let found = |build: &dyn Fn(Expr, Expr) -> Expr| {
             let (graph, value) = record(2, |x| build(x[0], x[1])).expect("records");
-            Simpler::of(&graph, graph.place(value)).map(|own| (own.factors.len(), own.rest))
+            Simpler::of(&mut Germs::new(&graph), graph.place(value))
+                .map(|own| (own.factors.len(), own.rest))
         };
         let (count, rest) = found(&|x, y| (x - y).tanh() * y).expect("a tangent");
         assert!(count == 1 && rest.factors.len() == 1 && rest.coefficient.is_one(), "{rest:?}");

@@ -55,10 +55,13 @@ struct Terms {
 }
 
 impl Terms {
-    fn new(sizes: &[f64], radius: f64) -> Self {
+    fn new(sizes: &[f64], index: usize) -> Self {
         let mut own = Self { terms: [0.0; LENGTH], sums: [0.0; LENGTH + 1] };
+        let (radius, mut power) = (radius(index), 1.0);
         for (k, size) in sizes.iter().enumerate() {
-            own.terms[k] = above(size * libm::pow(radius, k as f64));
+            own.terms[k] = above(size * power);
+            // a power of two, and exact
+            power *= radius;
         }
         for k in (0..LENGTH).rev() {
             own.sums[k] = own.sums[k + 1] + own.terms[k];
@@ -89,7 +92,7 @@ fn weighted(series: &[Rational]) -> Vec<f64> {
 pub(super) fn norm_from(series: &[Rational], first: usize) -> Rest {
     let mut sizes = sizes(series);
     sizes[..first].fill(0.0);
-    bounds(|index| Terms::new(&sizes, radius(index)).norm())
+    bounds(|index| Terms::new(&sizes, index).norm())
 }
 
 /// Bounds what is left out of a product.
@@ -97,7 +100,7 @@ pub(super) fn of_product(a: (&[Rational], &Rest), b: (&[Rational], &Rest)) -> Re
     let (x, y) = (sizes(a.0), sizes(b.0));
     bounds(|index| {
         let (alpha, beta) = (a.1[index], b.1[index]);
-        let [x, y] = [&x, &y].map(|own| Terms::new(own, radius(index)));
+        let [x, y] = [&x, &y].map(|own| Terms::new(own, index));
         x.crossed(&y) + x.norm() * beta + y.norm() * alpha + alpha * beta
     })
 }
@@ -106,7 +109,7 @@ pub(super) fn of_product(a: (&[Rational], &Rest), b: (&[Rational], &Rest)) -> Re
 pub(super) fn of_reciprocal(own: &[Rational], b: (&[Rational], &Rest)) -> Rest {
     let (q, y) = (sizes(own), sizes(b.0));
     bounds(|index| {
-        let [q, y] = [&q, &y].map(|own| Terms::new(own, radius(index)));
+        let [q, y] = [&q, &y].map(|own| Terms::new(own, index));
         let defect = q.crossed(&y) + q.norm() * b.1[index];
         over_rest(defect * q.norm(), defect)
     })
@@ -117,8 +120,8 @@ pub(super) fn of_reciprocal(own: &[Rational], b: (&[Rational], &Rest)) -> Rest {
 pub(super) fn of_exponential(both: [&[Rational]; 2], a: (&[Rational], &Rest)) -> Rest {
     let (all, slopes) = (both.map(sizes), weighted(a.0));
     bounds(|index| {
-        let slopes = Terms::new(&slopes, radius(index));
-        let all = all.each_ref().map(|own| Terms::new(own, radius(index)));
+        let slopes = Terms::new(&slopes, index);
+        let all = all.each_ref().map(|own| Terms::new(own, index));
         let rest = all[0].crossed(&slopes).max(all[1].crossed(&slopes)) / LENGTH as f64;
         let own = over_rest(rest, slopes.norm() / LENGTH as f64);
         // |cos α - 1| and |sin α| are below e^|α| - 1
@@ -135,9 +138,9 @@ pub(super) fn of_logarithm(
     let (slopes, x) = (weighted(own), sizes(a.0));
     let q = sizes(inverse.0);
     bounds(|index| {
-        let [slopes, x] = [&slopes, &x].map(|own| Terms::new(own, radius(index)));
+        let [slopes, x] = [&slopes, &x].map(|own| Terms::new(own, index));
         // 1/a_N is bounded by the same defect as 1/a, without α
-        let q = Terms::new(&q, radius(index));
+        let q = Terms::new(&q, index);
         let bound = over_rest(q.norm(), q.crossed(&x));
         let share = bound * a.1[index];
         bound * x.crossed(&slopes) / LENGTH as f64 + over_rest(share, share)

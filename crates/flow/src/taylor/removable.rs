@@ -6,6 +6,7 @@
 //! its divisor is 0.
 
 mod proved;
+mod series;
 
 use std::collections::BTreeMap;
 
@@ -14,6 +15,7 @@ use liouville::graph::{Graph, Step};
 use liouville::number::rational::Rational;
 use liouville::number::{BinaryOperation, UnaryFunction};
 pub(in crate::taylor) use proved::ProvedSeries;
+pub(in crate::taylor) use series::Germs;
 
 /// Number of coefficients of the series that stand for a quotient.
 const COUNT: usize = 30;
@@ -47,22 +49,28 @@ pub(super) struct Removable {
 
 impl Removable {
     /// Finds a quotient with a limit among the factors of a product.
-    pub(super) fn of(graph: &Graph, factors: &[(usize, i32)]) -> Option<Self> {
+    pub(super) fn of(germs: &mut Germs<'_>, factors: &[(usize, i32)]) -> Option<Self> {
         let divisors = || factors.iter().filter(|(_, power)| *power < 0);
         let has_dividend = factors.iter().any(|(_, power)| *power > 0);
         if !has_dividend {
             return None;
         }
         divisors().find_map(|(divisor, _)| {
-            let places = variables(graph, *divisor)?;
-            places.into_iter().find_map(|variable| Self::at(graph, factors, variable))
+            let places = variables(germs.graph, *divisor)?;
+            places.into_iter().find_map(|variable| Self::at(germs, factors, variable))
         })
     }
 
     /// The quotient of the factors that are 0 where `variable` is, if it has a limit.
-    fn at(graph: &Graph, factors: &[(usize, i32)], variable: Affine) -> Option<Self> {
-        let divisors = factors.iter().filter(|(_, power)| *power < 0);
-        if !divisors.into_iter().any(|(place, _)| may_vanish(graph, *place, &variable)) {
+    fn at(germs: &mut Germs<'_>, factors: &[(usize, i32)], variable: Affine) -> Option<Self> {
+        // What does not vanish has a series of order 0, and is no part of the quotient.
+        let vanishing: Vec<(usize, i32)> = factors
+            .iter()
+            .copied()
+            .filter(|own| may_vanish(germs.graph, own.0, &variable))
+            .collect();
+        let has = |is_dividend: bool| vanishing.iter().any(|own| (own.1 > 0) == is_dividend);
+        if !has(true) || !has(false) {
             return None;
         }
         // Coefficients at the end are lost with each factor v of a divisor.
@@ -71,9 +79,9 @@ impl Removable {
         let mut has_function = false;
         for power_is_positive in [true, false] {
             for (place, power) in
-                factors.iter().filter(|(_, power)| (*power > 0) == power_is_positive)
+                vanishing.iter().filter(|(_, power)| (*power > 0) == power_is_positive)
             {
-                let Some((germ, with_function)) = germ(graph, *place, &variable) else { continue };
+                let Some((germ, with_function)) = germs.of(*place, &variable) else { continue };
                 let order = germ.order();
                 if order == 0 || order >= COUNT {
                     continue;
@@ -251,53 +259,6 @@ fn number_of(step: Step<'_>, place: usize, values: &BTreeMap<usize, f64>) -> f64
     }
 }
 
-/// Series of a step in v, and whether functions enter it.
-fn germ(graph: &Graph, place: usize, v: &Affine) -> Option<(Germ, bool)> {
-    let parts = parts(graph, place)?;
-    let affine = affine(graph, &parts);
-    let mut all: BTreeMap<usize, (Germ, bool)> = BTreeMap::new();
-    for place in parts {
-        let own = affine.get(&place).and_then(|own| Germ::of_affine(own, v));
-        let found = match own {
-            Some(own) => (own, false),
-            None => made(graph.step(place), &all).unwrap_or_else(|| (Germ::unknown(place), false)),
-        };
-        all.insert(place, found);
-    }
-    all.remove(&place)
-}
-
-/// Series of a step by those of its arguments.
-fn made(step: Step<'_>, all: &BTreeMap<usize, (Germ, bool)>) -> Option<(Germ, bool)> {
-    let sum = |a: usize, b: usize, factor: i64| {
-        let ((x, f), (y, g)) = (all.get(&a)?, all.get(&b)?);
-        Some((x.clone().plus(y, &Rational::from(factor))?, *f || *g))
-    };
-    match step {
-        Step::Binary(BinaryOperation::Add, a, b) => sum(a, b, 1),
-        Step::Binary(BinaryOperation::Sub, a, b) => sum(a, b, -1),
-        Step::Binary(BinaryOperation::Mul, a, b) => {
-            let ((x, f), (y, g)) = (all.get(&a)?, all.get(&b)?);
-            Some((x.product(y)?, *f || *g))
-        }
-        Step::Unary(UnaryFunction::Neg, a) => {
-            let (x, f) = all.get(&a)?;
-            let zero = Germ::of_constant(Rational::from(0));
-            Some((zero.plus(x, &Rational::from(-1))?, *f))
-        }
-        Step::Unary(function, a) => {
-            let (x, f) = all.get(&a)?;
-            Some((x.apply(function)?, *f || function != UnaryFunction::Recip))
-        }
-        Step::Power(a, exponent) => {
-            let (x, f) = all.get(&a)?;
-            let whole = u32::try_from(exponent.to_integer()?).ok()?;
-            ((whole as usize) < LENGTH).then(|| x.power(whole))?.map(|power| (power, *f))
-        }
-        _ => None,
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -309,7 +270,7 @@ mod tests {
     fn found(build: impl Fn(Expr) -> [Expr; 2]) -> Option<Removable> {
         let (graph, factors) = record(2, |x| build(x[0])).expect("records");
         let [dividend, divisor] = factors.map(|factor| graph.place(factor));
-        Removable::of(&graph, &[(dividend, 1), (divisor, -1)])
+        Removable::of(&mut Germs::new(&graph), &[(dividend, 1), (divisor, -1)])
     }
 
     /// Value and slope along x at the place.
@@ -358,6 +319,15 @@ mod tests {
     }
 
     #[test]
+    fn no_series_is_made_where_no_dividend_is_0() {
+        let (graph, factors) = record(2, |x| [x[1] + x[0].cos(), x[0].sin()]).expect("records");
+        let [dividend, divisor] = factors.map(|factor| graph.place(factor));
+        let mut germs = Germs::new(&graph);
+        assert!(Removable::of(&mut germs, &[(dividend, 1), (divisor, -1)]).is_none());
+        assert_eq!(germs.count(), 0);
+    }
+
+    #[test]
     fn poles_and_rational_quotients_have_none() {
         assert!(found(|x| [x.cos(), x]).is_none(), "a pole");
         assert!(found(|x| [x.sin(), x * x]).is_none(), "a pole of sin x/x²");
@@ -375,7 +345,7 @@ mod tests {
             })
             .expect("records");
             let [dividend, divisor] = factors.map(|factor| graph.place(factor));
-            Removable::of(&graph, &[(dividend, 1), (divisor, -1)])
+            Removable::of(&mut Germs::new(&graph), &[(dividend, 1), (divisor, -1)])
         };
         for other in [false, true] {
             assert!(with(30, other).is_none(), "{other}");

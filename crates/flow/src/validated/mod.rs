@@ -60,6 +60,8 @@ const MOST_UNKNOWNS: usize = 6000;
 /// Limit on the iterations of Newton's method, and the step after which it has converged.
 const MOST_ITERATIONS: usize = 12;
 const CONVERGED: f64 = 1e-8;
+/// Step, relative to the unknowns, from which on the next nodes may be near no orbit.
+const FAR: f64 = 1e-2;
 /// Limit on the boxes tried, and the growth from one to the next.
 const MOST_BOXES: usize = 6;
 const GROWTH: f64 = 1.3;
@@ -132,8 +134,8 @@ pub fn prove(request: &Request<'_>) -> Result<ProvedOrbit, Obstacle> {
                 return Ok(found);
             }
             // Shorter segments have better chances.
-            Err(problem @ Obstacle::NoStep(_)) => obstacle = problem,
-            Err(Obstacle::TooLong) if matches!(obstacle, Obstacle::NoStep(_)) => break,
+            Err(problem @ (Obstacle::NoStep(_) | Obstacle::Strays)) => obstacle = problem,
+            Err(Obstacle::TooLong) if !matches!(obstacle, Obstacle::NoOrbit) => break,
             Err(problem) => return Err(problem),
         }
     }
@@ -155,12 +157,18 @@ impl<'s> OrbitSearch<'s> {
         let size = nodes.states.iter().flatten().fold(nodes.period, |a, b| a.max(b.abs()));
         let mut last = f64::INFINITY;
         for _ in 0..MOST_ITERATIONS {
+            // The first nodes are those of a motion; later ones, far from an orbit, may be none.
+            let strays = |problem| match problem {
+                Obstacle::NoStep(_) if last > FAR * size && last.is_finite() => Obstacle::Strays,
+                other => other,
+            };
             let frames = shooting.frames(&nodes).ok_or(Obstacle::NoOrbit)?;
             let starts = boxes(&nodes, None);
-            let passages = passages(shooting, &nodes, &starts, Enclosure::exact(nodes.period))?;
+            let passages = passages(shooting, &nodes, &starts, Enclosure::exact(nodes.period))
+                .map_err(strays)?;
             let columns = shooting.derivative(&nodes, &frames, &starts, &passages);
             let inverse = Inverse::new(&columns, &order).ok_or(Obstacle::Degenerate)?;
-            let step = inverse.times(&residual(shooting, &nodes, &frames)?);
+            let step = inverse.times(&residual(shooting, &nodes, &frames).map_err(strays)?);
             let length = step.iter().fold(0.0, |a: f64, b| a.max(b.abs()));
             if !length.is_finite() || length > size {
                 return Err(Obstacle::NoOrbit);

@@ -32,6 +32,12 @@ pub enum Obstacle {
     /// Newton's method does not converge.
     #[error("no closed orbit is found near the start: Newton's method does not converge")]
     NoOrbit,
+    /// Newton's method leads to where a step is not proved.
+    #[error(
+        "no closed orbit is found near the start: Newton's method leads away from it, to where no step \
+         of the series is proved; start nearer to the orbit, or state its period better"
+    )]
+    Strays,
     /// A step is not proved.
     #[error(
         "no step of the series is proved near t = {0:.3}: the field varies too much there, as near a pole \

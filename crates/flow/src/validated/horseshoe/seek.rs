@@ -25,19 +25,33 @@ use liouville::number::double_double::DoubleDouble;
 use liouville::number::rational::Rational;
 use liouville::scalar::Scalar;
 
-/// Distance of the first starts, and the largest distance of crossings, against the saddle's state.
+/// Distance of the first starts against the saddle's state.
 const BEGIN: f64 = 1e-3;
-const NEAR: f64 = 0.05;
-/// Number of starts on each side.
-const STARTS: usize = 200;
-/// Number of periods for which motions are followed.
+/// Looks at motions: the next is taken where the one before finds nothing.
+const LOOKS: [Look; 2] =
+    [Look { near: 0.05, starts: 200, ways: 0.0 }, Look { near: 0.15, starts: 400, ways: 2.0 }];
+/// Number of periods for which motions are followed, without the ways away from the saddle and back.
 const PERIODS: f64 = 10.0;
+/// Number of homoclinic orbits after which no others are looked for.
+const MOST_FOUND: usize = 4;
 /// Share of a period by which crossings of neighbouring motions may differ in time.
 const ABREAST: f64 = 0.1;
 /// Share of a period between two crossings near the saddle beyond which a motion was away.
 const AWAY: f64 = 1.5;
 /// Number of rounds of refinement, by a factor of `MOTION_LANES` + 1 each.
 const ROUNDS: usize = 14;
+
+/// Extent of a search.
+#[derive(Clone, Copy, Debug)]
+struct Look {
+    /// Largest distance of crossings against the saddle's state. Far from the saddle its stable curve
+    /// bends, and a zero found there may be none.
+    near: f64,
+    /// Number of starts on each side.
+    starts: usize,
+    /// Number of ways between the first starts and this distance that motions have time for.
+    ways: f64,
+}
 
 /// Crossing of the saddle's surface near the saddle.
 #[derive(Clone, Debug)]
@@ -64,7 +78,8 @@ pub struct Seeker<'s> {
     shooting: &'s Shooting,
     saddle: &'s Saddle,
     program: TaylorProgram,
-    near: f64,
+    /// Size of the saddle's state.
+    size: f64,
 }
 
 impl<'s> Seeker<'s> {
@@ -84,7 +99,7 @@ impl<'s> Seeker<'s> {
             vec![terms.fold(zero, |sum, ((x, n), o)| sum + number(*n) * (*x - number(*o)))]
         })?;
         let size = home.origin.iter().map(|x| x * x).sum::<f64>().sqrt();
-        Ok(Self { shooting, saddle, program, near: NEAR * size })
+        Ok(Self { shooting, saddle, program, size })
     }
 
     /// State at a distance along the unstable direction.
@@ -97,31 +112,50 @@ impl<'s> Seeker<'s> {
 
     /// Finds homoclinic orbits, the shortest first.
     pub fn find(&self) -> Result<Vec<Homoclinic>, Obstacle> {
-        let begin = BEGIN / NEAR * self.near;
+        for look in LOOKS {
+            let (found, come_back) = self.found(look)?;
+            // Where most of one side come back, the curves are one, and more motions show no more.
+            if !found.is_empty() || come_back {
+                return Ok(found);
+            }
+        }
+        Ok(Vec::new())
+    }
+
+    /// The same by one look; returns too whether most of the motions of a side come back near the saddle.
+    fn found(&self, look: Look) -> Result<(Vec<Homoclinic>, bool), Obstacle> {
+        let (begin, count) = (BEGIN * self.size, look.starts);
         let growth = self.saddle.multipliers[0].abs();
         let starts: Vec<f64> = [1.0, -1.0]
             .iter()
             .flat_map(|side| {
-                (0..=STARTS)
-                    .map(move |k| side * begin * libm::pow(growth, k as f64 / STARTS as f64))
+                (0..=count).map(move |k| side * begin * libm::pow(growth, k as f64 / count as f64))
             })
             .collect();
-        let found = self.crossings(&starts)?;
-        let mut all = Vec::new();
-        for (index, pair) in found.windows(2).enumerate() {
-            if index == STARTS {
-                continue;
-            }
+        let crossings = self.crossings(&starts, look)?;
+        let mut pairs = Vec::new();
+        for (index, pair) in crossings.windows(2).enumerate().filter(|(index, _)| *index != count) {
             for crossing in pair[0].iter().filter(|crossing| crossing.returned) {
                 let Some(other) = self.partner(crossing, &pair[1]) else { continue };
                 if other.at[0] * crossing.at[0] <= 0.0 {
-                    let ends = [starts[index], starts[index + 1]];
-                    all.extend(self.refined(ends, crossing.clone(), other.clone())?);
+                    pairs.push((index, crossing, other));
                 }
             }
         }
-        all.sort_by(|a, b| a.time.total_cmp(&b.time));
-        Ok(all)
+        pairs.sort_by(|(_, a, _), (_, b, _)| a.time.total_cmp(&b.time));
+        let mut all = Vec::new();
+        for (index, crossing, other) in pairs {
+            if all.len() == MOST_FOUND {
+                break;
+            }
+            let ends = [starts[index], starts[index + 1]];
+            all.extend(self.refined(ends, [crossing, other], look)?);
+        }
+        all.sort_by(|a: &Homoclinic, b| a.time.total_cmp(&b.time));
+        let back = |side: &[Vec<SaddleCrossing>]| {
+            2 * side.iter().filter(|own| own.iter().any(|one| one.returned)).count() > side.len()
+        };
+        Ok((all, crossings.chunks(count + 1).any(back)))
     }
 
     /// Crossing of another motion at about the same time.
@@ -139,15 +173,16 @@ impl<'s> Seeker<'s> {
     fn refined(
         &self,
         ends: [f64; 2],
-        mut left: SaddleCrossing,
-        mut right: SaddleCrossing,
+        crossings: [&SaddleCrossing; 2],
+        look: Look,
     ) -> Result<Option<Homoclinic>, Obstacle> {
         let [mut from, mut to] = ends;
+        let [mut left, mut right] = crossings.map(Clone::clone);
         for _ in 0..ROUNDS {
             let inner: Vec<f64> = (1..=MOTION_LANES)
                 .map(|k| from + (to - from) * k as f64 / (MOTION_LANES + 1) as f64)
                 .collect();
-            let found = self.crossings(&inner)?;
+            let found = self.crossings(&inner, look)?;
             for (start, crossings) in inner.iter().zip(&found) {
                 let Some(crossing) = self.partner(&left, crossings) else { return Ok(None) };
                 if (crossing.at[0] > 0.0) == (left.at[0] > 0.0) {
@@ -159,15 +194,17 @@ impl<'s> Seeker<'s> {
             }
         }
         // Where the two motions end far from each other the coordinate jumps.
-        let is_continuous = (left.at[0] - right.at[0]).abs() < 1e-4 * self.near;
+        let is_continuous = (left.at[0] - right.at[0]).abs() < 1e-4 * look.near * self.size;
         let (start, time, end) = ((from + to) / 2.0, left.time, left.at[1]);
         Ok(is_continuous.then_some(Homoclinic { start, time, end }))
     }
 
     /// Follows motions from distances along the unstable direction, and returns their crossings
     /// near the saddle.
-    fn crossings(&self, starts: &[f64]) -> Result<Vec<Vec<SaddleCrossing>>, Obstacle> {
-        let until = PERIODS * self.saddle.period();
+    fn crossings(&self, starts: &[f64], look: Look) -> Result<Vec<Vec<SaddleCrossing>>, Obstacle> {
+        let near = look.near * self.size;
+        let way = libm::log(look.near / BEGIN) / libm::log(self.saddle.multipliers[0].abs());
+        let until = (PERIODS + look.ways * way) * self.saddle.period();
         let mut stepper = Stepper::<Lanes<MOTION_LANES>>::new(&self.program, Accuracy::FLOAT);
         let mut found = Vec::new();
         for group in starts.chunks(MOTION_LANES) {
@@ -197,7 +234,7 @@ impl<'s> Seeker<'s> {
                         }
                     }
                     if !sides[lane].pass(&ends, lane) {
-                        self.note(&stepper, lane, &mut sides[lane], &mut tracks[lane]);
+                        self.note(&stepper, (lane, near), &mut sides[lane], &mut tracks[lane]);
                     }
                 }
                 stepper.advance();
@@ -211,7 +248,7 @@ impl<'s> Seeker<'s> {
     fn note(
         &self,
         stepper: &Stepper<Lanes<MOTION_LANES>>,
-        lane: usize,
+        (lane, near): (usize, f64),
         sides: &mut Sides,
         track: &mut Vec<SaddleCrossing>,
     ) {
@@ -220,7 +257,7 @@ impl<'s> Seeker<'s> {
         for event in sides.events(&piece.output(0), piece.length(), doubt) {
             let Event::Crossing { after, rising: true } = event else { continue };
             let state: Vec<f64> = piece.state(after).iter().map(|x| x.hi).collect();
-            if distance(&state, &self.saddle.home.origin) > self.near {
+            if distance(&state, &self.saddle.home.origin) > near {
                 continue;
             }
             let time = piece.begin().hi + after;

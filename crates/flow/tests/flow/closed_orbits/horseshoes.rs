@@ -54,6 +54,23 @@ state = { x = "-0.0101", p = "0", c = "1", s = "0" }
 integral = "none"
 "#;
 
+/// Hénon and Heiles' system at the energy 0.122.
+const HENON_HEILES: &str = r#"
+title = "Hénon and Heiles"
+[state]
+x = "-1..1"
+y = "-1..1"
+p = "-1..1"
+q = "-1..1"
+[hamiltonian]
+function = "(p² + q² + x² + y²)/2 + x²*y − y³/3"
+pairs    = [["x", "p"], ["y", "q"]]
+[[claim]]
+horseshoe = 6.90
+state = { x = "0", y = "-0.1837024", p = "0.458202", q = "0" }
+integral = "none"
+"#;
+
 fn of_figure(number: &str, saddle: &str) -> ClaimReport {
     let cases = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../cases/figures"));
     let path = cases.join(format!("fig-{number}.toml"));
@@ -118,6 +135,18 @@ fn the_digits_of_the_period_do_not_change_a_horseshoe() {
     }
     let wrong = with("2.0954", "-0.0101");
     assert_eq!(wrong.verdict, Verdict::Refuted, "another period: {:?}", wrong.evidence);
+}
+
+/// Its motions come back less near to the saddle, and later, than those of figures.
+#[test]
+fn the_saddle_of_henon_and_heiles_has_a_horseshoe() {
+    let claim = horseshoe(HENON_HEILES);
+    assert_eq!(claim.verdict, Verdict::Proved, "{:?}", claim.evidence);
+    let theorem = claim.evidence.theorem.expect("stated");
+    assert!(theorem.contains("real-analytic integral"), "{theorem}");
+    // Separable in x ± y: there are saddles, and no horseshoes.
+    let other = horseshoe(&HENON_HEILES.replace("x²*y − y³/3", "x²*y + y³/3"));
+    assert_eq!(other.verdict, Verdict::Undecided, "{:?}", other.evidence);
 }
 
 #[test]

@@ -51,3 +51,14 @@ fn a_small_cycle_after_a_large_transient_is_no_point() {
     let all = found(&damped, 2, &[0, 0, 1, 0], "x, y", 700.0);
     assert!(all.attractors.iter().all(|set| set.is_point), "{:?}", all.attractors);
 }
+
+#[test]
+fn motions_that_run_away_do_not_make_a_cycle_a_point() {
+    // x grows like e^t beyond 1, and falls to 0 below
+    let runaway = "title = 'a'\n[state]\nx = '-3..3'\ny = '-3..3'\nu = '-3..3'\n[field]\n\
+        \"x'\" = 'x*tanh(x - 1)'\n\"y'\" = 'u'\n\"u'\" = '(1 - y^2)*u - y'\n";
+    let all = found(runaway, 5, &[0, 0, 1], "x, y, u", 200.0);
+    let [set] = &all.attractors[..] else { panic!("{:?}", all.ends) };
+    assert!(set.count == 2 && !set.is_point, "{set:?}: {:?}", all.ends);
+    assert!(set.ranges[1][0] < -1.9 && set.ranges[1][1] > 1.9, "{set:?}");
+}
