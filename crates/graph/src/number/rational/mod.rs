@@ -2,12 +2,14 @@
 //!
 //! `0.1` is 1/10 and stays so until a number domain asks for its own image of it.
 
+mod divisor;
 mod operators;
 mod text;
 
 #[cfg(test)]
 mod tests;
 
+pub use divisor::common_divisor;
 pub use text::RationalError;
 
 use num_bigint::{BigInt, Sign};
@@ -49,16 +51,22 @@ impl Rational {
         let common = n.gcd(&d) * d.signum();
         match (i64::try_from(n / common), i64::try_from(d / common)) {
             (Ok(n), Ok(d)) => Self(Repr::Small(n, d)),
-            _ => Self(Repr::Big(Box::new(BigRational::new(n.into(), d.into())))),
+            _ => {
+                let [n, d] = [n, d].map(|part| BigInt::from(part / common));
+                Self(Repr::Big(Box::new(BigRational::new_raw(n, d))))
+            }
         }
     }
 
     /// Makes the fraction of two integers of any size; the denominator must not be zero.
     pub fn from_parts(numerator: BigInt, denominator: BigInt) -> Self {
         assert!(denominator.sign() != Sign::NoSign, "a fraction needs a non-zero denominator");
-        Self::from_big(BigRational::new(numerator, denominator))
+        let common = common_divisor(&numerator, &denominator);
+        let common = if denominator.is_negative() { -common } else { common };
+        Self::from_big(BigRational::new_raw(numerator / &common, denominator / common))
     }
 
+    /// Takes a fraction in lowest terms.
     fn from_big(value: BigRational) -> Self {
         match (value.numer().to_i64(), value.denom().to_i64()) {
             (Some(n), Some(d)) => Self(Repr::Small(n, d)),

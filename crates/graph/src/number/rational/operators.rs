@@ -2,10 +2,14 @@
 
 use std::cmp::Ordering;
 
+use num_rational::BigRational;
+use num_traits::One;
+
+use super::divisor::common_divisor;
 use super::{Rational, Repr};
 
 macro_rules! operators {
-    ($($trait:ident $method:ident $checked:expr;)*) => {$(
+    ($($trait:ident $method:ident $checked:expr, $large:expr;)*) => {$(
         impl std::ops::$trait for &Rational {
             type Output = Rational;
             fn $method(self, other: &Rational) -> Rational {
@@ -16,7 +20,7 @@ macro_rules! operators {
                         return Rational::reduced(n, d);
                     }
                 }
-                Rational::from_big(std::ops::$trait::$method(self.to_big(), other.to_big()))
+                Rational::from_big($large(&self.to_big(), &other.to_big()))
             }
         }
     )*};
@@ -25,11 +29,33 @@ macro_rules! operators {
 operators! {
     Add add |a: i128, b: i128, c: i128, d: i128| {
         (a * d).checked_add(c * b).map(|n| (n, b * d))
-    };
+    }, sum;
     Sub sub |a: i128, b: i128, c: i128, d: i128| {
         (a * d).checked_sub(c * b).map(|n| (n, b * d))
-    };
-    Mul mul |a: i128, b: i128, c: i128, d: i128| Some((a * c, b * d));
+    }, |a, b: &BigRational| sum(a, &-b);
+    Mul mul |a: i128, b: i128, c: i128, d: i128| Some((a * c, b * d)), product;
+}
+
+/// Adds in lowest terms: above and below only divisors of both denominators can be left
+/// (Knuth, The Art of Computer Programming 2, 4.5.1).
+fn sum(a: &BigRational, b: &BigRational) -> BigRational {
+    let common = common_divisor(a.denom(), b.denom());
+    if common.is_one() {
+        let above = a.numer() * b.denom() + b.numer() * a.denom();
+        return BigRational::new_raw(above, a.denom() * b.denom());
+    }
+    let (own, other) = (a.denom() / &common, b.denom() / &common);
+    let above = a.numer() * other + b.numer() * &own;
+    let left = common_divisor(&above, &common);
+    BigRational::new_raw(above / &left, own * (b.denom() / left))
+}
+
+/// Multiplies in lowest terms, by the divisors that one numerator shares with the other denominator.
+fn product(a: &BigRational, b: &BigRational) -> BigRational {
+    let left = common_divisor(a.numer(), b.denom());
+    let right = common_divisor(b.numer(), a.denom());
+    let above = (a.numer() / &left) * (b.numer() / &right);
+    BigRational::new_raw(above, (a.denom() / right) * (b.denom() / left))
 }
 
 impl std::ops::Neg for &Rational {

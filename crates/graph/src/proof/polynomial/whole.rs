@@ -5,6 +5,7 @@ use num_integer::Integer;
 use num_traits::{One, Signed, Zero};
 
 use super::modular::{Coefficients, Residues, trimmed};
+use crate::number::rational::common_divisor;
 
 /// Largest degree that is divided.
 const MOST_DEGREE: usize = 12;
@@ -15,7 +16,7 @@ const MOST_FACTORS: usize = 10;
 
 /// Divides by the common divisor of the coefficients, and makes the leading one positive.
 pub fn primitive(of: Coefficients) -> Coefficients {
-    let common = of.iter().fold(BigInt::zero(), |common, value| common.gcd(value));
+    let common = of.iter().fold(BigInt::zero(), |common, value| common_divisor(&common, value));
     let Some(head) = of.last().filter(|_| !common.is_zero()) else { return of };
     let common = if head.is_negative() { -common } else { common };
     of.iter().map(|value| value / &common).collect()
