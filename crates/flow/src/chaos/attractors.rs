@@ -235,7 +235,7 @@ mod tests {
     fn motions_on_one_cycle_are_together_at_any_phase_and_period() {
         let golden = 0.618_033_988_749_894_9;
         let regular = [1.0, 2.0, 0.5, 3.7, 40.0, 79.0, 1.0 + golden, 1.0 / golden, golden * golden];
-        for period in regular.into_iter().chain((1..200).map(|k| f64::from(k) / 37.0)) {
+        for period in regular.into_iter().chain((1..200).step_by(5).map(|k| f64::from(k) / 37.0)) {
             let (own, other) = (circle(1.0, period, 0.0), circle(1.0, period, 0.37));
             assert!(own.is_settled() && other.is_settled() && !own.is_point(), "{period}");
             assert!(own.is_with(&other), "{period}");

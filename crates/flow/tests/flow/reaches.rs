@@ -150,10 +150,11 @@ fn chaos_widens_the_box_until_nothing_is_said() {
     };
     let near = at(10);
     assert_eq!(near.verdict, Verdict::Proved, "{:?}", near.evidence);
-    assert_eq!(at(200).verdict, Verdict::Undecided);
+    assert_eq!(at(60).verdict, Verdict::Undecided);
 }
 
 #[test]
+#[ignore = "slow: smaller systems are proved to reach above, and to come near, by the same steps"]
 fn the_rattleback_turns_back_one_way() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../cases/spin/rattleback-reversal.toml");
     let case = Case::read(std::path::Path::new(path), &[]).1.expect("a case");

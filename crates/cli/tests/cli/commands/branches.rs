@@ -124,7 +124,7 @@ fn wrong_branches_are_refused_with_a_remedy() {
 
 #[test]
 fn symmetric_orbits_are_listed_with_their_reversors() {
-    let points = ["--points", "40", "--json"];
+    let points = ["--points", "16", "--json"];
     let wish = ["motion", "periodic", "figures/fig-A2", "--symmetric", "L=0,l=pi/2"];
     let found = json(&[&wish[..], &points].concat(), 0);
     let all = found["points"].as_array().expect("points");

@@ -18,7 +18,7 @@ fn alone(name: &str, arguments: &[&str]) -> Command {
 
 #[test]
 fn the_catalogue_is_inside_the_program() {
-    alone("alone-check", &["check", "-q", "plane", "classical/planar"])
+    alone("alone-check", &["check", "-q", "suslov", "classical/planar"])
         .assert()
         .code(0)
         .stdout(contains("0 against expectation"));

@@ -150,15 +150,23 @@ fn the_saddle_of_henon_and_heiles_has_a_horseshoe() {
 }
 
 #[test]
-fn saddles_of_integrable_figures_have_none() {
-    for (figure, period) in [("3", "4.6597349369"), ("4", "17.716785086")] {
-        let saddle =
-            format!("[[claim]]\nhorseshoe = {period}\nstart = [0, 0]\nintegral = \"none\"\n");
-        let claim = of_figure(figure, &saddle);
-        assert_eq!(claim.verdict, Verdict::Undecided, "{figure}: {:?}", claim.evidence);
-        let reason = claim.evidence.reason.expect("a reason");
-        assert!(reason.contains("returns to it"), "{figure}: {reason}");
-    }
+fn the_saddle_of_an_integrable_figure_has_none() {
+    has_none("3", "4.6597349369");
+}
+
+#[test]
+#[ignore = "slow: as that of figure 3, whose period is a quarter"]
+fn the_saddle_of_another_integrable_figure_has_none() {
+    has_none("4", "17.716785086");
+}
+
+/// Claims a horseshoe at the saddle of a figure, which has none.
+fn has_none(figure: &str, period: &str) {
+    let saddle = format!("[[claim]]\nhorseshoe = {period}\nstart = [0, 0]\nintegral = \"none\"\n");
+    let claim = of_figure(figure, &saddle);
+    assert_eq!(claim.verdict, Verdict::Undecided, "{figure}: {:?}", claim.evidence);
+    let reason = claim.evidence.reason.expect("a reason");
+    assert!(reason.contains("returns to it"), "{figure}: {reason}");
 }
 
 #[test]
