@@ -40,8 +40,8 @@ impl NumericalLevel {
     pub(super) fn project<const N: usize>(&self, values: &mut [Balls<N>]) {
         self.newton.project(values);
         let on_halves = self.on_halves(values);
-        for lane in 0..N {
-            if self.position(values, lane) != Position::Inside || !on_halves[lane] {
+        for (lane, is_on_halves) in on_halves.into_iter().enumerate() {
+            if self.position(values, lane) != Position::Inside || !is_on_halves {
                 for block in &mut values[self.parameters..] {
                     (block.mid[lane], block.rad[lane]) = (f64::NAN, f64::NAN);
                 }
