@@ -193,7 +193,7 @@ fn parts_that_a_case_does_not_have_are_not_recorded() {
     let parameters = "R = '0.2..0.3'\nmu = '1..2'\nturn = '1..2'";
     let surface = "surface = 'arbitrary'\n";
     let bare = size("ball-on-surface", parameters, surface);
-    let forces = format!("{surface}potential = 'arbitrary'\nrotation = 'turn'");
+    let forces = format!("{surface}potential = 'arbitrary'\nrotation = 'turn'\nframe = 'rotating'");
     let loaded = size("ball-on-surface", parameters, &forces);
     let shares = [EquationPart::Potential, EquationPart::Rotation].map(|part| share(&loaded, part));
     assert!(shares.iter().all(|share| share.is_some_and(|n| n > 0)), "{loaded:?}");
