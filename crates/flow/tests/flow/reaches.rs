@@ -154,7 +154,7 @@ fn chaos_widens_the_box_until_nothing_is_said() {
 }
 
 #[test]
-#[ignore = "slow: smaller systems are proved to reach above, and to come near, by the same steps"]
+#[ignore = "slow: `reaches` of smaller systems is proved above"]
 fn the_rattleback_turns_back_one_way() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../cases/spin/rattleback-reversal.toml");
     let case = Case::read(std::path::Path::new(path), &[]).1.expect("a case");

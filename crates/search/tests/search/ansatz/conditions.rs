@@ -389,7 +389,6 @@ fn values_of_the_parameters_of_a_particle_are_those_of_its_potential() {
 }
 
 #[test]
-#[ignore = "slow: primes are tried one after the other; that values may be missing is told above as well"]
 fn values_that_no_prime_has_may_be_missing() {
     // Five roots, whose permutations are all of them: no prime is found that has all.
     let (conditions, remarks) = of_a_particle("a = '1..2'", "(a^5 − a + 3)*x*y + x² + y² + x³");
