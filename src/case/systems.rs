@@ -220,8 +220,10 @@ impl<'r, 's> Reading<'r, 's> {
     pub fn own_state(&mut self, reach: Dependence, remedy: &str) {
         match self.root.table("state") {
             Some(ranges) => {
-                // A map may take one half of the orthogonal matrices to the other.
-                let rotations = (!self.root.has("map")).then(Vec::new);
+                // A map may take one half of the orthogonal matrices to the other, and multipliers are given by constraint.
+                let kind = self.root.text("system").ok().flatten();
+                let is_vakonomic = kind.is_some_and(|kind| kind.value == "vakonomic");
+                let rotations = (!self.root.has("map") && !is_vakonomic).then(Vec::new);
                 self.state = state::state(&ranges, &mut self.vocabulary, reach, rotations);
                 self.list_shapes();
             }

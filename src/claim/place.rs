@@ -71,7 +71,9 @@ impl LevelSubset {
             Some(index) => (0..model.level.len()).map(|other| other == index).collect(),
             None => model.level.iter().map(|own| plain(own.written()) == wanted).collect(),
         };
-        kept.contains(&true).then_some(Self { kept })
+        // All states of these equations are more than the level where the file chooses halves of it.
+        let is_wider = !model.orientations.is_empty() && kept.iter().all(|kept| *kept);
+        (kept.contains(&true) && !is_wider).then_some(Self { kept })
     }
 
     /// Lists the places of interest that properly contain this one, widest first.

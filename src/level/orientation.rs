@@ -1,12 +1,17 @@
 //! Equations that choose one of the two halves of a level on which some vectors are a basis: det Q = 1 where
 //! QᵀQ = E. They are no equations of the level, as their slopes vanish along it.
 
-use super::derivatives::EquationDerivatives;
+use num_traits::{One, Zero};
+
+use super::derivatives::{EquationDerivatives, members};
 use super::equation::Equation;
 use super::frame::Frame;
-use crate::graph::{Expr, record};
+use crate::graph::{Expr, Step, literally, record};
 use crate::mechanics::{Half, Model, Phase};
+use crate::number::rational::Rational;
+use crate::number::{BinaryOperation, UnaryFunction};
 use crate::proof::{Extent, Group, GroupOutcome, Prover};
+use crate::scalar::Scalar;
 
 /// An equation of a level that says nothing new of a frame, but for its half.
 pub struct OfFrame {
@@ -17,7 +22,7 @@ pub struct OfFrame {
 }
 
 /// Finds the equations of a level that hold on a half, or on all, of the vectors of a basis whose products other
-/// equations fix: det Q = 1, q₁ × q₂ = q₃ or QQᵀ = E beside QᵀQ = E.
+/// equations fix: det Q = 1, q₁ × q₂ = q₃ or QQᵀ = E beside QᵀQ = E. All are polynomials, with values everywhere.
 pub fn of_frames(model: &Model) -> Vec<OfFrame> {
     let at = |index: usize| EquationDerivatives::at(model, Equation { index, is_squared: false });
     let derivatives: Vec<EquationDerivatives> = (0..model.level.len()).filter_map(at).collect();
@@ -28,42 +33,102 @@ pub fn of_frames(model: &Model) -> Vec<OfFrame> {
             continue;
         }
         let inside = frame.vectors.concat();
-        for derivatives in &derivatives {
+        let is_about = |derivatives: &&EquationDerivatives| {
             let index = derivatives.equation.index;
-            let contained = super::derivatives::members(derivatives.contained());
+            let contained = members(derivatives.contained());
             let is_other = !own.contains(&index) && !found.iter().any(|own| own.index == index);
             let is_inside = !contained.is_empty() && contained.iter().all(|k| inside.contains(k));
-            if !is_other || !is_inside {
+            is_other && is_inside && is_polynomial(model, index)
+        };
+        let about: Vec<usize> =
+            derivatives.iter().filter(is_about).map(|own| own.equation.index).collect();
+        let holds = |index: &usize, is_positive| {
+            HalfOfFrame { model, frame, is_positive }.is_equal(&[*index], &Rational::from(0))
+        };
+        let (everywhere, others): (Vec<usize>, Vec<usize>) =
+            about.into_iter().partition(|index| holds(index, true) && holds(index, false));
+        found.extend(everywhere.into_iter().map(|index| OfFrame { index, half: None }));
+        for is_positive in [true, false] {
+            let own: Vec<usize> =
+                others.iter().copied().filter(|index| holds(index, is_positive)).collect();
+            // Not to be 0 identically on the other half is not enough: it must have no zero there.
+            let other = HalfOfFrame { model, frame, is_positive: !is_positive };
+            if own.is_empty() || !other.excludes(&own) {
                 continue;
             }
-            let holds = [true, false].map(|is_positive| holds_on(model, frame, index, is_positive));
-            let half = |is_positive| Some(Half { vectors: frame.vectors.clone(), is_positive });
-            match holds {
-                [true, true] => found.push(OfFrame { index, half: None }),
-                [true, false] => found.push(OfFrame { index, half: half(true) }),
-                [false, true] => found.push(OfFrame { index, half: half(false) }),
-                [false, false] => {}
-            }
+            let half = Half { vectors: frame.vectors.clone(), is_positive };
+            let chosen = own.into_iter().map(|index| OfFrame { index, half: Some(half.clone()) });
+            found.extend(chosen);
         }
     }
     found
 }
 
-/// Whether an equation is proved to hold for all vectors of a frame on one half.
-fn holds_on(model: &Model, frame: &Frame, index: usize, is_positive: bool) -> bool {
+/// Whether an equation of the level, as it is written, is a polynomial.
+fn is_polynomial(model: &Model, index: usize) -> bool {
     let parameters = model.free_components();
-    let inputs = parameters + model.dimension();
-    let recorded = record(inputs, |inputs| {
+    let recorded = record(parameters + model.dimension(), |inputs| {
         let (parameters, state) = inputs.split_at(parameters);
-        let mut state = state.to_vec();
-        frame.make(&mut state, Some(frame.sign_of(is_positive)));
-        Phase::new(model, parameters, &state).level_function(&model.level[index].function)
+        let phase = Phase::new(model, parameters, state);
+        literally(|| phase.level_function(&model.level[index].function))
     });
     let Ok((graph, value)) = recorded else { return false };
-    let extents = vec![Extent::ALL; inputs];
-    let prover = Prover { sources: &[], extents: &extents, seed: 0 };
-    let outcome = prover.prove(&graph, &[Group::of(vec![value])]);
-    outcome.is_ok_and(|found| found.iter().all(GroupOutcome::is_zero))
+    let reached = graph.reached([value]);
+    graph.steps_at(&reached).all(|(_, step)| match step {
+        Step::Constant(_) | Step::Input(_) | Step::Unary(UnaryFunction::Neg, _) => true,
+        Step::Unary(..) => false,
+        Step::Binary(operation, ..) => {
+            use BinaryOperation::{Add, Mul, Sub};
+            matches!(operation, Add | Sub | Mul)
+        }
+        Step::Power(_, exponent) => exponent.to_integer().is_some_and(|exponent| exponent >= 0),
+    })
+}
+
+/// One half of the vectors of a frame.
+#[derive(Clone, Copy)]
+struct HalfOfFrame<'f> {
+    model: &'f Model,
+    frame: &'f Frame,
+    is_positive: bool,
+}
+
+impl HalfOfFrame<'_> {
+    /// Sum of the squares of some equations, from parameters and the draws of the state.
+    fn squares(self, equations: &[usize], parameters: &[Expr], state: &[Expr]) -> Expr {
+        let mut state = state.to_vec();
+        self.frame.make(&mut state, Some(self.frame.sign_of(self.is_positive)));
+        let phase = Phase::new(self.model, parameters, &state);
+        let value = |index: &usize| phase.level_function(&self.model.level[*index].function);
+        equations.iter().map(value).fold(Expr::zero(), |sum, value| sum + value * value)
+    }
+
+    /// Whether the sum of the squares of some equations is proved to be this number.
+    fn is_equal(self, equations: &[usize], number: &Rational) -> bool {
+        let parameters = self.model.free_components();
+        let inputs = parameters + self.model.dimension();
+        let recorded = record(inputs, |inputs| {
+            let (parameters, state) = inputs.split_at(parameters);
+            self.squares(equations, parameters, state) - Expr::rational(number)
+        });
+        let Ok((graph, value)) = recorded else { return false };
+        let extents = vec![Extent::ALL; inputs];
+        let prover = Prover { sources: &[], extents: &extents, seed: 0 };
+        let outcome = prover.prove(&graph, &[Group::of(vec![value])]);
+        outcome.is_ok_and(|found| found.iter().all(GroupOutcome::is_zero))
+    }
+
+    /// Whether some equations have no common zero: the sum of their squares is one positive number.
+    fn excludes(self, equations: &[usize]) -> bool {
+        let recorded = record(0, |_| {
+            let parameters = vec![Expr::one(); self.model.free_components()];
+            let state = vec![Expr::zero(); self.model.dimension()];
+            self.squares(equations, &parameters, &state)
+        });
+        let Ok((graph, value)) = recorded else { return false };
+        let Some(number) = graph.constant_value(value).cloned() else { return false };
+        !number.is_zero() && self.is_equal(equations, &number)
+    }
 }
 
 /// Returns values that are positive on the halves of the level that the file chooses, where a frame of the solution

@@ -77,6 +77,26 @@ impl Model {
             .collect()
     }
 
+    /// Whether nothing moves for a choice of listed values, by draw of the parameters.
+    pub fn has_no_motion_for(&self, fixed: &[Option<Rational>]) -> bool {
+        let mut place = 0;
+        let places: Vec<usize> = self
+            .parameters
+            .iter()
+            .map(|own| {
+                let first = place;
+                if let ParameterOrigin::Free(recipe) = &own.origin {
+                    place += recipe.draws().len();
+                }
+                first
+            })
+            .collect();
+        let is_chosen = |(index, value): &(usize, Rational)| {
+            fixed.get(places[*index]).is_some_and(|own| own.as_ref() == Some(value))
+        };
+        self.undetermined.iter().any(|choice| choice.iter().all(is_chosen))
+    }
+
     /// Returns the draws of the free parameters; those of vectors and matrices count as free, with a list or not.
     fn draws_of_lists(&self) -> Vec<Draw> {
         let of_one = |recipe: &SamplerSpec| match recipe {

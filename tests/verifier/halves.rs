@@ -82,3 +82,61 @@ fn constraints_make_a_rotation() {
         assert_eq!(verdicts, [Verdict::Proved; 3], "{constraints}");
     }
 }
+
+#[test]
+fn what_may_hold_on_a_part_of_the_other_half_chooses_none() {
+    let any = "matrix(-1..1)";
+    for level in [
+        "'Qᵀ*Q = E', 'Q[1,1]*(det(Q) − 1) = 0'",
+        "'Qᵀ*Q = E', '(det(Q) − 1)*max(Q[1,1], 0) = 0'",
+        "'Qᵀ*Q = E', '(det(Q) − 1)*(det(Q) + 1 + Q[1,1]) = 0'",
+        "'Qᵀ*Q = E', '(Q[1] × Q[2])[3] = Q[3,3]'",
+        "'Qᵀ*Q = E', 'log(det(Q)) = 0'",
+        "'Qᵀ*Q = E', '(det(Q) − 1)*√(Q[1,1]) = 0'",
+        "'Qᵀ*Q = E', 'det(Q) + log(Q[1,1]) − log(Q[1,1]) = 1'",
+    ] {
+        let claims = ["identity = 'det(Q) = 1'", "identity = 'abs(Q[1,1]) = Q[1,1]'"];
+        if let Ok(found) = verdicts(any, level, &claims) {
+            assert!(!found.contains(&Verdict::Proved), "{level}: {found:?}");
+        }
+        let true_there = ["identity = 'Q*Qᵀ = E'", "identity = 'det(Q)^2 = 1'"];
+        if let Ok(found) = verdicts(any, level, &true_there) {
+            assert!(!found.contains(&Verdict::Refuted), "{level}: {found:?}");
+        }
+    }
+}
+
+#[test]
+fn coefficients_that_may_be_0_choose_no_half() {
+    for (parameter, factor) in [("one of 0, 1", "k"), ("-1..1", "max(k, 0)"), ("-1..1", "k")] {
+        let text = format!(
+            "title = 'x'\n[parameters]\nk = '{parameter}'\n[state]\nQ = 'matrix(-1..1)'\n[field]\n\
+             \"Q'\" = 'zero(3,3)'\n[level]\nequations = ['Qᵀ*Q = E', '{factor}*(det(Q) − 1) = 0']\n\
+             [[claim]]\nidentity = 'det(Q) = 1'\n"
+        );
+        let case = Case::parse(&text, &[]).unwrap_or_else(|error| panic!("{error}"));
+        if let Ok(found) = judge(&case, &Options::default()) {
+            let verdict = found.claims[0].verdict;
+            assert!(
+                verdict != Verdict::Proved || factor == "k" && parameter == "-1..1",
+                "{parameter}, {factor}: {verdict:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn the_place_of_the_other_equations_is_more_than_the_half() {
+    let level = "'Qᵀ*Q = E', 'det(Q) = 1'";
+    let claim = "identity = 'det(Q) = 1'\nwhere = 'Qᵀ*Q = E'";
+    let found = verdicts("matrix(-1..1)", level, &[claim]);
+    assert!(found.as_ref().is_err_and(|error| error.contains("not a place")), "{found:?}");
+}
+
+#[test]
+fn a_chart_takes_no_half() {
+    let chart = "'Qᵀ*Q = E', 'det(Q) = 1']\n[level.chart]\ninputs = { a = '-1..1' }\n\
+                 Q = '[[−1, 0, 0], [0, cos(a), −sin(a)], [0, sin(a), cos(a)]]'\n'ω' = '[0, 0, 0]'\n#";
+    let found = verdicts("matrix(-1..1)", chart, &["identity = 'det(Q) = 1'"]);
+    assert!(found.is_err(), "{found:?}");
+}

@@ -85,7 +85,7 @@ fn zeros(model: &Model) -> Zeros {
     let draws = model.parameter_draws();
     let Some(choices) = combinations(&draws) else { return Zeros::Possible };
     let mut all = Zeros::None;
-    for fixed in choices {
+    for fixed in choices.into_iter().filter(|fixed| !model.has_no_motion_for(fixed)) {
         let chosen = draws.iter().zip(&fixed).map(|(draw, own)| draw.fixed(own.as_ref()));
         match zeros_for(model, &chosen.collect::<Vec<Draw>>(), &fixed) {
             Zeros::None => {}

@@ -102,8 +102,25 @@ impl Start {
         mut state: Vec<DoubleDouble>,
     ) -> Result<Self, FlowError> {
         let moved = LevelFunctions::new(model, &parameters, &[])?.correct(&mut state, &[])?;
-        Ok(Self { parameters, state, moved })
+        match lies_in_halves(model, &state)? {
+            true => Ok(Self { parameters, state, moved }),
+            false => Err(FlowError::NoStart),
+        }
     }
+}
+
+/// Whether a state of the level lies in the halves of it that the file chooses.
+fn lies_in_halves(model: &Model, state: &[DoubleDouble]) -> Result<bool, FlowError> {
+    if model.orientations.is_empty() {
+        return Ok(true);
+    }
+    let (graph, signs) = record(model.dimension(), |inputs| {
+        model.orientations.iter().map(|own| own.half.sign(inputs)).collect::<Vec<Expr>>()
+    })?;
+    let tape = Tape::new(&graph, &signs);
+    let mut evaluator = Evaluator::new(&tape, DoubleDoubles);
+    evaluator.run(state);
+    Ok(evaluator.outputs().all(|value| value.hi > 0.0))
 }
 
 /// Functions of a point over which gradients are recorded.

@@ -8,7 +8,7 @@ use liouville::claim::Components;
 use liouville::claim::motion::{Beginning, Reaches};
 use liouville::formula::Formula;
 use liouville::graph::{Evaluator, Expr, Tape, literally, record};
-use liouville::mechanics::{Model, Phase};
+use liouville::mechanics::{LevelEquation, Model, Phase};
 use liouville::number::ball::{Ball, Balls};
 use liouville::number::exact::Exact;
 use liouville::number::rational::Rational;
@@ -64,6 +64,11 @@ pub fn judge(claim: &Reaches, scene: &FollowedCase<'_>) -> Result<MotionJudgemen
     Ok(judgement)
 }
 
+/// Equations of the level, and those that choose halves of it.
+fn equations(model: &Model) -> impl Iterator<Item = &LevelEquation> {
+    model.level.iter().chain(model.orientations.iter().map(|own| &own.equation))
+}
+
 /// Encloses the state of a claim, or returns the reason why it is not known to lie on the level.
 fn exact_start(
     model: &Model,
@@ -73,14 +78,14 @@ fn exact_start(
     let (graph, outputs) = record(model.dimension(), |inputs| {
         let mut outputs = state.at(&point(model, parameters, inputs));
         let at = Phase::new(model, &filled(parameters, &[], &[]), &outputs);
-        let level = model.level.iter().map(|equation| at.level_function(&equation.function));
+        let level = equations(model).map(|equation| at.level_function(&equation.function));
         outputs.extend(level.collect::<Vec<_>>());
         outputs
     })?;
     let tape = Tape::new(&graph, &outputs);
     let mut exact = Evaluator::new(&tape, Exact);
     exact.run(&vec![Some(Rational::from(0)); model.dimension()]);
-    for (equation, value) in model.level.iter().zip(exact.outputs().skip(model.dimension())) {
+    for (equation, value) in equations(model).zip(exact.outputs().skip(model.dimension())) {
         match value {
             Some(value) if value.is_zero() => {}
             Some(_) => return Ok(Err(format!("the state violates {}", equation.text.trim()))),

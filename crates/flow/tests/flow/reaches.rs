@@ -235,3 +235,19 @@ fn a_field_whose_terms_cancel_is_enclosed_by_shorter_steps() {
     let found = claim(field, rest);
     assert_eq!(found.verdict, Verdict::Proved, "{:?}", found.evidence.reason);
 }
+
+#[test]
+fn a_state_on_the_other_half_of_a_level_is_refused() {
+    let of = |state: &str| {
+        let text = format!(
+            "title = 'x'\n[state]\nQ = 'rotation'\n'ω' = 'vector(-2..2)'\n[field]\n\"Q'\" = 'Q*hat(ω)'\n\
+             \"ω'\" = '[0, 0, 0]'\n[[claim]]\nreaches = 'det(Q)'\nabove = '0.9'\n\
+             state = {{ Q = '{state}', 'ω' = '[0, 0, 1]' }}\ntime = 1\n"
+        );
+        judged(&text)
+    };
+    assert_eq!(of("diag(1, 1, 1)").verdict, Verdict::Proved);
+    let found = of("diag(−1, 1, 1)");
+    assert_eq!(found.verdict, Verdict::Undecided);
+    assert!(found.evidence.reason.is_some_and(|own| own.contains("violates det(Q) = 1")));
+}

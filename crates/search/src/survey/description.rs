@@ -102,6 +102,7 @@ impl Description {
         own.further_rates(case);
         // An equation between vectors or matrices is several, and written once.
         let mut level: Vec<&str> = model.level.iter().map(|own| own.written()).collect();
+        level.extend(model.orientations.iter().map(|own| own.equation.written()));
         level.dedup();
         own.equations.extend(level.into_iter().map(|own| SystemLine::level(model, own)));
         own.abbreviations(model);

@@ -143,9 +143,13 @@ impl ExportedCase<'_> {
                 vec!["Time derivatives of the state, component by component.".to_string()]
             }
             FunctionSubject::Level => {
-                let equations = self.case.model.level.iter().map(|own| own.text.clone());
+                let model = &self.case.model;
+                let equations = model.level.iter().map(|own| own.text.clone());
                 let equations = equations.collect::<Vec<_>>().join("; ");
-                vec![format!("Left minus right sides of the level equations: {equations}.")]
+                let halves = model.orientations.iter().map(|own| &own.equation.text);
+                let halves = halves.map(|own| format!("The level is the half with {own}."));
+                let sides = format!("Left minus right sides of the level equations: {equations}.");
+                std::iter::once(sides).chain(halves).collect()
             }
             FunctionSubject::Value(index) => {
                 let claim = &claims[index];
