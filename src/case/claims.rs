@@ -46,6 +46,12 @@ pub fn claim_keys() -> Vec<(&'static str, Vec<ShapedKey>)> {
     stated.chain(motions).chain(absences).collect()
 }
 
+/// Lists the statements which a key may accompany.
+pub fn statements_with(key: &str) -> Vec<&'static str> {
+    let all = claim_keys().into_iter();
+    all.filter(|(_, keys)| keys.iter().any(|(own, _)| *own == key)).map(|own| own.0).collect()
+}
+
 /// Whether this is a claim about motion.
 pub fn is_about_motion(section: &CaseTable<'_>) -> bool {
     MOTIONS.iter().any(|key| section.value(key).is_some())

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use super::claims::statements_with;
 use super::utf8::NotUtf8;
 use crate::formula::{FormulaError, Type};
 
@@ -249,8 +250,15 @@ impl Mistake {
                         .to_string(),
                 )
             }
-            Problem::UnknownKey { nearest: None, known, .. } => {
-                Some(format!("known here: {}", known.join(", ")))
+            Problem::UnknownKey { nearest: None, known, key, section, .. } => {
+                let owners = match section == "[[claim]]" {
+                    true => statements_with(key),
+                    false => Vec::new(),
+                };
+                Some(match owners.len() {
+                    0 | 5.. => format!("known here: {}", known.join(", ")),
+                    _ => format!("write it in a claim with `{}`", owners.join("`, `")),
+                })
             }
             Problem::MissingKey { remedy, .. }
             | Problem::Incomplete { remedy, .. }

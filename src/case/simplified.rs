@@ -9,15 +9,10 @@ use crate::mechanics::{LevelEquation, LevelFunction, Model};
 pub fn simplify(root: &CaseTable<'_>, model: &mut Model) -> Vec<String> {
     root.keep(no_open_level(root, model));
     let section = root.table("level");
-    // A chart is checked by equations of the level.
-    let has_chart = section.as_ref().is_some_and(|own| own.has("chart"));
     let texts = section.map(|own| own.texts("equations").unwrap_or_default()).unwrap_or_default();
     let texts: Vec<String> = texts.iter().map(|text| text.value.trim().to_string()).collect();
     let is_given = |equation: &LevelEquation| implied::is_one_of(equation, &texts);
-    let mut remarks = match has_chart {
-        true => Vec::new(),
-        false => halves::take_out(model, is_given),
-    };
+    let mut remarks = halves::take_out(model, is_given);
     if !texts.is_empty() {
         remarks.extend(repeated::count_factors_once(model, is_given));
         let left_out = implied::leave_out(model, is_given).map_err(|text| {

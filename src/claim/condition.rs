@@ -45,7 +45,7 @@ impl Need {
             Self::Zeros { function } => vec![*function],
             Self::OneToOne { moved } => vec![*moved],
             Self::Finite { value, field } => [&[*value], &field[..]].concat(),
-            Self::ValueOnZeros { function, factor, inverse } => {
+            Self::ValueOnZeros { function, factor, inverse, .. } => {
                 [*function, *factor].into_iter().chain(*inverse).collect()
             }
         }
@@ -105,6 +105,8 @@ pub enum Need {
     ValueOnZeros {
         /// Function whose zeros are considered.
         function: Expr,
+        /// Functions whose common zeros these are.
+        components: Vec<Expr>,
         /// Factor, recorded literally.
         factor: Expr,
         /// Reciprocal of the factor; none of an entry of a matrix.

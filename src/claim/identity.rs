@@ -153,7 +153,8 @@ impl Statement for Relation {
             own if own == wanted => Ok(Self { function, cofactor }),
             own => {
                 let (own, of) = (own.in_full(), function.value_type().in_full());
-                let message = format!("the cofactor of a {of} is no {own}");
+                let wanted = wanted.in_full();
+                let message = format!("the cofactor of a {of} has to be a {wanted}, not a {own}");
                 Err(from.complaint("cofactor", message, remedy))
             }
         }
@@ -203,7 +204,7 @@ impl Statement for Relation {
             integrands.map(|factor| (factor, inverse.is_some().then(|| factor.recip())));
         let condition = |(factor, inverse)| {
             Condition {
-            need: Need::ValueOnZeros { function, factor, inverse },
+            need: Need::ValueOnZeros { function, components: components.clone(), factor, inverse },
             otherwise:
                 "it is not known that the cofactor has a value where F = 0: cancel its denominator, \
                  and write roots of what is not negative there"

@@ -8,10 +8,8 @@ use super::equation::Equation;
 use super::frame::Frame;
 use crate::graph::{Expr, Step, literally, record};
 use crate::mechanics::{Half, Model, Phase};
-use crate::number::rational::Rational;
 use crate::number::{BinaryOperation, UnaryFunction};
-use crate::proof::{Extent, Group, GroupOutcome, Prover};
-use crate::scalar::Scalar;
+use crate::proof::{Extent, Group, GroupOutcome, Prover, is_nowhere_zero};
 
 /// An equation of a level that says nothing new of a frame, but for its half.
 pub struct OfFrame {
@@ -43,7 +41,7 @@ pub fn of_frames(model: &Model) -> Vec<OfFrame> {
         let about: Vec<usize> =
             derivatives.iter().filter(is_about).map(|own| own.equation.index).collect();
         let holds = |index: &usize, is_positive| {
-            HalfOfFrame { model, frame, is_positive }.is_equal(&[*index], &Rational::from(0))
+            HalfOfFrame { model, frame, is_positive }.satisfies(&[*index])
         };
         let (everywhere, others): (Vec<usize>, Vec<usize>) =
             about.into_iter().partition(|index| holds(index, true) && holds(index, false));
@@ -74,14 +72,20 @@ fn is_polynomial(model: &Model, index: usize) -> bool {
     });
     let Ok((graph, value)) = recorded else { return false };
     let reached = graph.reached([value]);
-    graph.steps_at(&reached).all(|(_, step)| match step {
+    let is_number = |place: usize| {
+        let own = graph.at(place);
+        graph.inputs_of(own).is_empty() && graph.is_always_defined(own)
+    };
+    graph.steps_at(&reached).all(|(place, step)| match step {
         Step::Constant(_) | Step::Input(_) | Step::Unary(UnaryFunction::Neg, _) => true,
-        Step::Unary(..) => false,
+        Step::Unary(..) => is_number(place),
         Step::Binary(operation, ..) => {
             use BinaryOperation::{Add, Mul, Sub};
-            matches!(operation, Add | Sub | Mul)
+            matches!(operation, Add | Sub | Mul) || is_number(place)
         }
-        Step::Power(_, exponent) => exponent.to_integer().is_some_and(|exponent| exponent >= 0),
+        Step::Power(_, exponent) => {
+            exponent.to_integer().is_some_and(|exponent| exponent >= 0) || is_number(place)
+        }
     })
 }
 
@@ -103,13 +107,21 @@ impl HalfOfFrame<'_> {
         equations.iter().map(value).fold(Expr::zero(), |sum, value| sum + value * value)
     }
 
-    /// Whether the sum of the squares of some equations is proved to be this number.
-    fn is_equal(self, equations: &[usize], number: &Rational) -> bool {
+    /// Same sum at one point of the half.
+    fn squares_at_a_point(self, equations: &[usize]) -> Expr {
+        let parameters = vec![Expr::one(); self.model.free_components()];
+        let state = vec![Expr::zero(); self.model.dimension()];
+        self.squares(equations, &parameters, &state)
+    }
+
+    /// Whether the sum of the squares of some equations is proved to be 0, or what it is at a point.
+    fn is_fixed(self, equations: &[usize], is_zero: bool) -> bool {
         let parameters = self.model.free_components();
         let inputs = parameters + self.model.dimension();
         let recorded = record(inputs, |inputs| {
             let (parameters, state) = inputs.split_at(parameters);
-            self.squares(equations, parameters, state) - Expr::rational(number)
+            let sum = self.squares(equations, parameters, state);
+            if is_zero { sum } else { sum - self.squares_at_a_point(equations) }
         });
         let Ok((graph, value)) = recorded else { return false };
         let extents = vec![Extent::ALL; inputs];
@@ -118,16 +130,16 @@ impl HalfOfFrame<'_> {
         outcome.is_ok_and(|found| found.iter().all(GroupOutcome::is_zero))
     }
 
+    /// Whether all equations are proved to hold.
+    fn satisfies(self, equations: &[usize]) -> bool {
+        self.is_fixed(equations, true)
+    }
+
     /// Whether some equations have no common zero: the sum of their squares is one positive number.
     fn excludes(self, equations: &[usize]) -> bool {
-        let recorded = record(0, |_| {
-            let parameters = vec![Expr::one(); self.model.free_components()];
-            let state = vec![Expr::zero(); self.model.dimension()];
-            self.squares(equations, &parameters, &state)
-        });
-        let Ok((graph, value)) = recorded else { return false };
-        let Some(number) = graph.constant_value(value).cloned() else { return false };
-        !number.is_zero() && self.is_equal(equations, &number)
+        let recorded = record(0, |_| self.squares_at_a_point(equations));
+        recorded.is_ok_and(|(graph, value)| is_nowhere_zero(&graph, &[], &[], &[value]))
+            && self.is_fixed(equations, false)
     }
 }
 

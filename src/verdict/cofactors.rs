@@ -7,6 +7,7 @@ use super::field::{Answer, PrimeFieldStates, Query};
 use super::judging::Judging;
 use super::recorded::RecordedClaim;
 use super::sampler::Sampler;
+use super::zero_sets::vanishes_nowhere_openly_on;
 use crate::claim::LevelSubset;
 use crate::graph::{Expr, Fault, Graph, Need, record};
 use crate::mechanics::{Chart, System, combinations};
@@ -58,7 +59,7 @@ impl Judging<'_> {
         &self,
         sampler: &Sampler,
         item: &RecordedClaim<'_>,
-        function: Expr,
+        (function, components): (Expr, &[Expr]),
         cofactor: &Cofactor,
     ) -> Result<bool, Fault> {
         // For almost all parameters a function of them alone is not 0.
@@ -90,6 +91,21 @@ impl Judging<'_> {
             of_field.contains(pole) && (is_apart(pole) || may_miss && has_other_zeros(pole))
         };
         poles.retain(|pole| (moves(pole) || !misses_some) && !is_of_field(pole));
+        if !misses_some {
+            // Where F = 0 lies in no pole of the field, most of its states have motions.
+            let is_on_few = |pole: &Expr| -> Result<bool, Fault> {
+                let seed = self.options.seed;
+                Ok(of_field.contains(pole)
+                    && vanishes_nowhere_openly_on(self.graph, components, *pole, parameters, seed)?)
+            };
+            let mut open = Vec::new();
+            for pole in poles {
+                if !is_on_few(&pole)? {
+                    open.push(pole);
+                }
+            }
+            poles = open;
+        }
         // What is under a root may be negative where F = 0: the cofactor then says nothing of F = 0.
         let roots_of_field = roots_of(self.graph, &self.common.required_at(sampler.kept()));
         let mut roots = roots_of(self.graph, &[cofactor.factor]);

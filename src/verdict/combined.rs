@@ -24,7 +24,11 @@ impl Judging<'_> {
     /// Proves open claims whose residuals are combinations of the level functions; those about motions need that
     /// the rates of these functions are, too.
     pub(super) fn combine(&self, sampler: &Sampler, open: &mut Open<'_, '_>) -> Result<(), Fault> {
-        let (level, rates) = self.common.level_at(sampler.kept());
+        let (mut level, rates) = self.common.level_at(sampler.kept());
+        // No motion leaves a half of the whole level.
+        if sampler.kept().iter().all(|kept| *kept) {
+            level.extend(&self.common.halves);
+        }
         let is_map = self.case.model.system.is_map();
         let mut of_rates: Option<Option<Certificate>> = None;
         for (item, status) in open.iter_mut() {

@@ -261,9 +261,10 @@ impl Judging<'_> {
                 let place = self.pole(sampler, *value, field)?;
                 Ok(place.map(|place| Unmet::known(format!("near {place} {otherwise}"))))
             }
-            Need::ValueOnZeros { function, factor, inverse } => {
+            Need::ValueOnZeros { function, components, factor, inverse } => {
                 let cofactor = Cofactor { factor: *factor, inverse: *inverse };
-                let is_met = self.has_value_on_zeros(sampler, item, *function, &cofactor)?;
+                let zeros = (*function, &components[..]);
+                let is_met = self.has_value_on_zeros(sampler, item, zeros, &cofactor)?;
                 Ok((!is_met).then(|| Unmet::open(otherwise.clone())))
             }
         }

@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::claim_state::ClaimState;
+use super::evidence::Verdict;
 use super::judge::JudgeError;
 use super::judging::Judging;
 use super::recorded::RecordedClaim;
@@ -21,20 +22,17 @@ use crate::scalar::Scalar;
 pub(super) type SplitDraws = Option<BTreeSet<usize>>;
 
 impl Judging<'_> {
-    /// Lists such draws for a claim whose verdict rests on all states that count: one that holds, that has a value at
-    /// none, that says that something does not vanish, or that asks whether a map is one-to-one.
+    /// Lists such draws for a claim whose verdict rests on all states that count: one that is not refuted, that says that
+    /// something does not vanish, or that asks whether a map is one-to-one.
     pub(super) fn split_draws_of(
         &self,
         item: &RecordedClaim<'_>,
         status: &ClaimState,
     ) -> Result<SplitDraws, JudgeError> {
         let asks_images = |own: &Condition| matches!(own.need, Need::OneToOne { .. });
-        let says_nothing =
-            status.undefined.is_some() || status.is_silent || status.is_void || status.is_unseen;
-        let is_about_all = status.holds()
-            || says_nothing
-            || status.settled.is_some()
-                && (item.claim.kind.is_negated() || item.conditions.iter().any(asks_images));
+        let is_about_all = status.settled != Some(Verdict::Refuted)
+            || item.claim.kind.is_negated()
+            || item.conditions.iter().any(asks_images);
         let mut split = BTreeSet::new();
         if !is_about_all {
             return Ok(Some(split));

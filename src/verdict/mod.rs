@@ -71,6 +71,7 @@ mod values;
 mod voids;
 mod wider_domain;
 mod witness;
+mod zero_sets;
 
 pub use equations::{EquationsSize, equations_size};
 pub use evidence::{

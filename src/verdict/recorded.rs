@@ -14,7 +14,7 @@ use crate::formula::Formula;
 use crate::graph::{Expr, literally};
 use crate::mechanics::calculus::DualPoint;
 use crate::mechanics::elimination::rejection;
-use crate::mechanics::{LevelEquation, LevelFunction, System};
+use crate::mechanics::{LevelEquation, LevelFunction, Orientation, System};
 use crate::number::Enclosing;
 
 /// A claim with all expressions recorded for it.
@@ -110,7 +110,9 @@ pub struct SharedTerms {
     level_requirement: Vec<Vec<Expr>>,
     /// Level functions, zero on the level.
     pub level: Vec<Expr>,
-    /// Their rates along the motion, or their values at the image of a map.
+    /// Functions that are zero on the halves of the level which the file chooses.
+    pub halves: Vec<Expr>,
+    /// Rates of the level functions along the motion, or their values at the image of a map.
     pub level_rates: Vec<Expr>,
     /// Values of each level equation as written at the image under a map: where it has none the image is off the level.
     pub level_presence: Vec<Vec<Expr>>,
@@ -155,6 +157,10 @@ impl SharedTerms {
                 phase.model().level.iter().map(formula).collect()
             },
             level: phase.model().level.iter().map(|e| phase.level_function(&e.function)).collect(),
+            halves: {
+                let of = |own: &Orientation| phase.level_function(&own.equation.function);
+                phase.model().orientations.iter().map(of).collect()
+            },
             level_rates: (0..phase.model().level.len()).map(rate).collect(),
             level_presence: {
                 let of = |index: usize| {

@@ -134,9 +134,36 @@ fn the_place_of_the_other_equations_is_more_than_the_half() {
 }
 
 #[test]
-fn a_chart_takes_no_half() {
-    let chart = "'Qᵀ*Q = E', 'det(Q) = 1']\n[level.chart]\ninputs = { a = '-1..1' }\n\
-                 Q = '[[−1, 0, 0], [0, cos(a), −sin(a)], [0, sin(a), cos(a)]]'\n'ω' = '[0, 0, 0]'\n#";
-    let found = verdicts("matrix(-1..1)", chart, &["identity = 'det(Q) = 1'"]);
-    assert!(found.is_err(), "{found:?}");
+fn a_chart_has_to_lead_to_the_half_of_the_file() {
+    let of = |first: &str, claims: &[&str]| {
+        let chart = format!(
+            "'Qᵀ*Q = E', 'det(Q) = 1']\n[level.chart]\ninputs = {{ a = '-1..1' }}\n\
+             Q = '[[{first}, 0, 0], [0, cos(a), −sin(a)], [0, sin(a), cos(a)]]'\n'ω' = '[a, 0, 0]'\n#"
+        );
+        verdicts("matrix(-1..1)", &chart, claims)
+    };
+    let claims =
+        ["identity = 'det(Q) = 1'", "identity = 'Q[1] × Q[2] = Q[3]'", "identity = 'Q = E'"];
+    use Verdict::{Proved, Refuted};
+    assert_eq!(of("1", &claims), Ok(vec![Proved, Proved, Refuted]));
+    // Into the other half, and into both.
+    for first in ["−1", "a/|a|"] {
+        let found = of(first, &claims[..1]);
+        assert!(found.as_ref().is_err_and(|own| own.contains("det(Q) = 1")), "{first}: {found:?}");
+    }
+}
+
+#[test]
+fn equations_that_choose_a_half_hold_also_beside_others() {
+    use Verdict::{Proved, Refuted};
+    let root = "'(a,a) = 1', '(b,b) = 4', '(c,c) = 2', '(a,b) = 1', '(b,c) = 0', '(a,c) = 0', '(a,b×c) = √6'";
+    let text = format!(
+        "title = 'x'\n[parameters]\nw = 'vector(-1..1)'\n[state]\na = 'vector(-2..2)'\nb = 'vector(-2..2)'\n\
+         c = 'vector(-2..2)'\n[level]\nequations = [{root}]\n[field]\n\"a'\" = 'w×a'\n\"b'\" = 'w×b'\n\
+         \"c'\" = 'w×c'\n[[claim]]\nidentity = 'a×b = √6/2*c'\n[[claim]]\nidentity = 'a×b = −√6/2*c'\n"
+    );
+    let case = Case::parse(&text, &[]).unwrap_or_else(|error| panic!("{error}"));
+    let found = judge(&case, &Options::default()).unwrap_or_else(|error| panic!("{error}"));
+    let found: Vec<Verdict> = found.claims.into_iter().map(|own| own.verdict).collect();
+    assert_eq!(found, [Proved, Refuted]);
 }

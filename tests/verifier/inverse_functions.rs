@@ -118,3 +118,49 @@ fn differences_of_increasing_functions_have_the_sign_of_the_difference() {
         assert_eq!(judged("-2..2", "-2..2", &[own.to_string()]), [expected], "{own}");
     }
 }
+
+#[test]
+fn arctangents_are_sums_of_others_where_their_ranges_say_so() {
+    let (low, wide) = ("0.1..3", "-3..3");
+    let cases = [
+        (wide, "atan((x + y) - y)", "atan(x)", "-atan(x)"),
+        (wide, "atan((x + 1)*(x - 1))", "atan(x^2 - 1)", "atan(1 - x^2)"),
+        (wide, "atan(sin(x + 2*pi))", "atan(sin(x))", "atan(sin(2*x))"),
+        (wide, "atan(y + 2*atan((x + y) - y))", "atan(y + 2*atan(x))", "atan(y + atan(x))"),
+        (
+            wide,
+            "atan(x^2/sqrt(1 + x^2) - sqrt(1 + x^2))",
+            "-atan(1/sqrt(1 + x^2))",
+            "atan(1/sqrt(1 + x^2))",
+        ),
+        ("-0.9..0.9", "asin((x + y) - y)", "asin(x)", "acos(x)"),
+        ("-0.9..0.9", "asin(x) + acos(x)", "pi/2", "pi"),
+        (low, "atan2(y*x, x^2)", "atan2(y, x)", "atan2(x, y)"),
+        (low, "atan(x) + atan(1/x)", "pi/2", "-pi/2"),
+        ("-3..-0.1", "atan(x) + atan(1/x)", "-pi/2", "pi/2"),
+        ("-0.9..0.9", "2*atan(x)", "atan(2*x/(1 - x^2))", "atan(2*x/(1 - x^2)) + pi"),
+        ("1.1..3", "2*atan(x)", "atan(2*x/(1 - x^2)) + pi", "atan(2*x/(1 - x^2))"),
+        ("-3..0.9", "atan((1 + x)/(1 - x))", "atan(x) + pi/4", "atan(x) - pi/4"),
+        ("1.1..3", "atan((1 + x)/(1 - x))", "atan(x) - 3*pi/4", "atan(x) + pi/4"),
+        (low, "atan(x) - atan(y)", "atan((x - y)/(1 + x*y))", "atan((x - y)/(1 - x*y))"),
+        (wide, "atan(1/2) + atan(1/3)", "pi/4", "pi/3"),
+        (wide, "atan(2) + atan(3)", "3*pi/4", "-pi/4"),
+    ];
+    for (x, own, value, other) in cases {
+        let y = if x == low { low } else { "-1..1" };
+        let claims = [format!("{own} = {value}"), format!("{own} = {other}")];
+        let found = judged(x, y, &claims);
+        assert_eq!(found, [Verdict::Proved, Verdict::Refuted], "{own} on {x}");
+    }
+    // Beyond these ranges the same is false.
+    for (x, own, value) in [
+        (wide, "atan(x) + atan(1/x)", "pi/2"),
+        (wide, "2*atan(x)", "atan(2*x/(1 - x^2))"),
+        (wide, "atan((1 + x)/(1 - x))", "atan(x) + pi/4"),
+        (wide, "atan(x) - atan(2*x - 4)", "atan((4 - x)/(1 + x*(2*x - 4)))"),
+        (wide, "atan2(y*x, x^2)", "atan2(y, x)"),
+    ] {
+        let found = judged(x, "-1..1", &[format!("{own} = {value}")]);
+        assert_eq!(found, [Verdict::Refuted], "{own} on {x}");
+    }
+}

@@ -229,3 +229,30 @@ fn exponents_are_split_on_parts_of_levels() {
         assert_eq!(verdict("1/2, 4", level, even), Verdict::Proved, "{level}");
     }
 }
+
+#[test]
+fn claims_about_a_field_with_listed_exponents_of_negative_bases_are_decided() {
+    let of = |exponents: &str, claim: &str| {
+        let text = format!(
+            "title = 't'\n[parameters]\na = 'one of {exponents}'\n[state]\nx = '-2..-1'\ny = '-1..1'\n\
+             [field]\n\"x'\" = 'x^a'\n\"y'\" = '0'\n[[claim]]\n{claim}\nexpect = 'open'\n"
+        );
+        let case = Case::parse(&text, &[]).unwrap_or_else(|error| panic!("{error}\n{text}"));
+        let report = judge(&case, &Options::default()).unwrap_or_else(|error| panic!("{error}"));
+        report.claims[0].verdict
+    };
+    for (claim, expected) in [
+        ("integral = 'x'", Verdict::Refuted),
+        ("identity = 'y = 2*y'", Verdict::Refuted),
+        ("symmetry = { x = '2*x' }", Verdict::Refuted),
+        ("fixed-point = { x = '-3/2' }", Verdict::Refuted),
+        ("divergence = '0'", Verdict::Refuted),
+        ("lyapunov = 'x'", Verdict::Proved),
+        ("lyapunov = '-x'", Verdict::Refuted),
+        ("density = '1'", Verdict::Refuted),
+        ("density = '1/x^a'", Verdict::Proved),
+    ] {
+        assert_eq!(of("1, 3", claim), expected, "{claim}");
+    }
+    assert_eq!(of("1, 2", "lyapunov = 'x'"), Verdict::Refuted, "x² > 0");
+}

@@ -105,9 +105,7 @@ impl ModelBuilder {
         match open {
             None => {
                 let mut remarks = repeated::count_factors_once(&mut case.model, is_written);
-                if given_chart.is_none() {
-                    remarks.extend(halves::take_out(&mut case.model, is_written));
-                }
+                remarks.extend(halves::take_out(&mut case.model, is_written));
                 let left_out = implied::leave_out(&mut case.model, is_written);
                 remarks.extend(left_out.map_err(|text| {
                     let message = "a level equation contradicts those before it";

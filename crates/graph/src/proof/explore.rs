@@ -236,6 +236,10 @@ impl Explorer<'_> {
             (rewrites, certificate) = (found.0, both(certificate, found.1));
         }
         if rewrites.is_empty() {
+            let found = self.arctangent_sums(cell, known);
+            (rewrites, certificate) = (found.0, both(certificate, found.1));
+        }
+        if rewrites.is_empty() {
             let (sources, digest) = (self.sources, self.digest);
             let rules = Rules { graph, algebraic, sources, digest };
             let found = rules.find(&cell.values);

@@ -27,6 +27,7 @@
 
 mod alike;
 mod angles;
+mod arctangent_sums;
 mod arctangents;
 mod balanced;
 mod bounded;

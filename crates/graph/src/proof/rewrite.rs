@@ -8,6 +8,7 @@ use crate::number::{BinaryOperation, UnaryFunction};
 use crate::scalar::Scalar;
 
 use super::angles::Angle;
+use super::arctangent_sums::ArctangentSum;
 use super::arctangents::PlainAngle;
 use super::fact::SignFact;
 use super::nested::DenestedRoot;
@@ -92,6 +93,13 @@ pub enum Rewrite {
         argument: usize,
         /// The angle between −π/2 and π/2.
         angle: PlainAngle,
+    },
+    /// An arctangent, by others.
+    ArctangentSum {
+        /// Place of the arctangent.
+        place: usize,
+        /// The sum.
+        sum: ArctangentSum,
     },
 }
 
@@ -203,6 +211,9 @@ impl Rewrite {
             },
             (Rewrite::Arctangent { argument, angle }, Step::Unary(UnaryFunction::Atan, a)) => {
                 (a == *argument).then(|| angle.value(values)).flatten()
+            }
+            (Rewrite::ArctangentSum { place: own, sum }, _) => {
+                (*own == place).then(|| sum.value(values)).flatten()
             }
             (Rewrite::Signed { .. } | Rewrite::Power { .. } | Rewrite::Arctangent { .. }, _) => {
                 None
