@@ -45,7 +45,7 @@ pub fn level_equation(
         };
         Some(RootEquation { radicand, is_modulus, other_side })
     });
-    LevelEquation { text, function: LevelFunction::Formula(function), root }
+    LevelEquation { text, function: LevelFunction::Formula(function), root, lacks_entries: false }
 }
 
 /// Reads a list of equations as texts and differences of both sides, which may depend on no more

@@ -34,11 +34,11 @@ pub fn take_out(model: &mut Model, is_given: impl Fn(&LevelEquation) -> bool) ->
     let mut remarks = Vec::new();
     for OfFrame { index, half } in found.into_iter().rev() {
         let own = constraint(index);
-        let equation = model.level.remove(index);
+        let equation = model.leave_out(index);
         if let (Some(constraint), System::Lagrangian(lagrangian)) = (own, &mut model.system) {
             // The next equation is its rate.
             lagrangian.constraints.remove(constraint);
-            model.level.remove(index);
+            model.leave_out(index);
             model.vocabulary = model.vocabulary.only(|entry| !is_reaction(entry));
         }
         match half {

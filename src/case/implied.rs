@@ -38,8 +38,11 @@ pub fn leave_out(
         format!("`{text}` follows from the other equations of the level, and is left out")
     };
     let remarks = found.implied.iter().map(remark).collect();
-    let mut places = 0..;
-    model.level.retain(|_| !places.next().is_some_and(|place| found.implied.contains(&place)));
+    let mut implied = found.implied;
+    implied.sort_unstable();
+    for place in implied.into_iter().rev() {
+        model.leave_out(place);
+    }
     Ok(remarks)
 }
 
@@ -68,7 +71,7 @@ pub fn leave_out_constraints(model: &mut Model) -> Vec<String> {
         if let System::Lagrangian(lagrangian) = &mut model.system {
             lagrangian.constraints.remove(constraint);
         }
-        model.level.remove(equation);
+        model.leave_out(equation);
     }
     model.vocabulary = model.vocabulary.only(|entry| !is_reaction(entry));
     remarks

@@ -67,7 +67,7 @@ pub(super) fn names() -> String {
 }
 
 fn equation(text: &str, function: LevelFunction) -> LevelEquation {
-    LevelEquation { text: text.to_string(), function, root: None }
+    LevelEquation { text: text.to_string(), function, root: None, lacks_entries: false }
 }
 
 impl Reading<'_, '_> {

@@ -68,7 +68,12 @@ pub fn count_factors_once(
         };
         remarks.push(found.remark(&equation.text));
         level.extend(found.named(&equation.text).into_iter().map(|(text, function)| {
-            LevelEquation { text, function: LevelFunction::Formula(function), root: None }
+            LevelEquation {
+                text,
+                function: LevelFunction::Formula(function),
+                root: None,
+                lacks_entries: false,
+            }
         }));
     }
     model.level = level;

@@ -15,6 +15,13 @@ pub struct Casimir {
     bracket: usize,
 }
 
+impl Casimir {
+    /// Returns the function, in the names of the bracket's variables.
+    pub fn function(&self) -> &Formula {
+        &self.function
+    }
+}
+
 impl OfBracket for Casimir {
     const NAME: &'static str = "casimir";
 

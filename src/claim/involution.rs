@@ -42,6 +42,13 @@ pub struct Involution {
     is_complete: bool,
 }
 
+impl Involution {
+    /// Returns the functions, in the names of the bracket's variables.
+    pub fn functions(&self) -> &[Formula] {
+        &self.functions
+    }
+}
+
 impl Statement for Involution {
     const NAME: &'static str = "involution";
     const COMPANIONS: &'static [&'static str] = &[THEOREM, CHOICE];

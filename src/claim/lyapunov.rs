@@ -3,6 +3,8 @@
 //! The inequality x ≤ 0 is the equation x + |x| = 0. It is proved if intervals show that x is positive
 //! at no state, and refuted by a state at which x is positive.
 
+use num_dual::DualNum;
+
 use super::boxes::Boxes;
 use super::{Condition, Excess, Objection, Reader, ResidualContext, Statement};
 use crate::formula::{Formula, Layout, Type};
@@ -131,7 +133,9 @@ impl Statement for Lyapunov {
         match jet.phase.model().system.is_map() {
             true => vec![constant],
             false => {
-                vec![constant, Condition::continuous(vec![jet.phase.scalar(&self.function)], "F")]
+                // arctan F jumps where F comes back from infinity with the other sign.
+                let value = jet.phase.scalar(&self.function);
+                vec![constant, Condition::continuous(vec![value, value.atan()], "F")]
             }
         }
     }

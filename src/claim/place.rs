@@ -71,8 +71,11 @@ impl LevelSubset {
             Some(index) => (0..model.level.len()).map(|other| other == index).collect(),
             None => model.level.iter().map(|own| plain(own.written()) == wanted).collect(),
         };
-        // All states of these equations are more than the level where the file chooses halves of it.
-        let is_wider = !model.orientations.is_empty() && kept.iter().all(|kept| *kept);
+        // All states of these equations are more than the level where the file chooses halves of it, and what is left
+        // of an equation has more states than it.
+        let mut all = model.level.iter().zip(&kept).filter(|(_, kept)| **kept);
+        let is_wider = !model.orientations.is_empty() && kept.iter().all(|kept| *kept)
+            || exact.is_none() && all.any(|(own, _)| own.lacks_entries);
         (kept.contains(&true) && !is_wider).then_some(Self { kept })
     }
 

@@ -13,6 +13,8 @@ pub struct LevelEquation {
     pub function: LevelFunction,
     /// Sides of the equation if one of them is a root: A = e² is solved in place of √A = e.
     pub root: Option<RootEquation>,
+    /// Whether entries of the same equation of the file are left out, as they follow from other equations.
+    pub lacks_entries: bool,
 }
 
 /// Text between an equation and the place of an entry.

@@ -135,6 +135,16 @@ pub struct Model {
 }
 
 impl Model {
+    /// Takes an equation out of the level that says nothing new beside the others. The entries that are left of the
+    /// same equation of the file say less than it does.
+    pub fn leave_out(&mut self, index: usize) -> LevelEquation {
+        let equation = self.level.remove(index);
+        for own in self.level.iter_mut().filter(|own| own.written() == equation.written()) {
+            own.lacks_entries = true;
+        }
+        equation
+    }
+
     /// Makes a model with the same parameters, a state that is only named, and the abbreviations
     /// that can be read in its names, where they are the same functions of the named values.
     pub fn with_names(&self, vocabulary: Vocabulary, state: Vec<Variable>) -> Self {

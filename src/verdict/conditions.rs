@@ -4,7 +4,7 @@ use super::cell_rank::{CellRank, RankQuestion};
 use super::claim_state::{ClaimState, are_zero, undecide};
 use super::cofactors::Cofactor;
 use super::conclude::OPEN_CONSTANT;
-use super::evidence::Verdict;
+use super::evidence::{Independence, Verdict};
 use super::field::{Answer, PrimeFieldStates, Query};
 use super::judging::Judging;
 use super::ladder::Open;
@@ -85,6 +85,13 @@ impl Judging<'_> {
                     continue;
                 }
                 status.evidence.add_remark(failure.words);
+                // What jumps is no constant, and no function of the energy.
+                let marks = [Independence::Constant, Independence::General].map(Some);
+                if matches!(condition.need, Need::Continuous { .. })
+                    && marks.contains(&status.evidence.independence)
+                {
+                    status.evidence.independence = None;
+                }
                 let (flaw, assumption) = match failure.is_known {
                     true => (flaw(&condition.need), None),
                     false => (None, Assumption::that(&condition.need)),

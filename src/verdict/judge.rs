@@ -183,7 +183,7 @@ impl JudgeError {
             }
             JudgeError::Dependent(_) => {
                 "leave it out if it follows from the others, and correct it if it contradicts them; a part \
-                 is chosen by the ranges of [state], and rotations by det(Q) = 1 beside Qᵀ*Q = E"
+                 is chosen by the ranges of [state], and rotations, though not those of a map, by det(Q) = 1 beside Qᵀ*Q = E"
             }
             JudgeError::Quadrature(_) => {
                 "∫(f, x) is a function of x with derivative f: f may contain x and the parameters"

@@ -24,6 +24,7 @@ use crate::claim::LevelSubset;
 use crate::graph::{Expr, Fault, Graph};
 use crate::level::{self, Order};
 use crate::mechanics::{Chart, Variable};
+use crate::number::arb::ArbBall;
 use crate::number::ball::{Ball, Balls};
 use crate::number::double_double_ball::DoubleDoubleBall;
 use crate::number::mixed::{Mixed, Number};
@@ -252,8 +253,14 @@ impl Judging<'_> {
         let values = self.run(&written).at(&Ball::<TAPE_LANES>, states);
         let is_state = |lane: &usize| states.iter().all(|block| block.is_defined(*lane));
         // Numbers beyond the range of f64, as in tanh 1000v by exponentials, are values nevertheless.
+        let closer = OnceCell::new();
+        let is_defined_closer = |lane: usize| {
+            let defined = closer.get_or_init(|| self.defined_in_double_double(&written, sampler));
+            defined.get(lane) == Some(&true)
+        };
         let moves = |lane: &usize| {
             (0..written.len()).all(|k| values.output(k).is_defined(*lane))
+                || is_defined_closer(*lane)
                 || self.are_defined_with_more_digits(&written, sampler, *lane as u64)
         };
         let all = (0..TAPE_LANES).filter(is_state).count();
@@ -291,7 +298,17 @@ impl Judging<'_> {
         (0..PRECISE_STATES).any(|index| self.are_defined_with_more_digits(field, sampler, index))
     }
 
-    /// Whether values are defined at a state in exact numbers and balls of many digits.
+    /// At which states of the first block values are defined in double-double.
+    fn defined_in_double_double(&self, values: &[Expr], sampler: &Sampler) -> Vec<bool> {
+        if sampler.is_numerical() {
+            return Vec::new();
+        }
+        let domain = DoubleDoubleBall::<TAPE_LANES>;
+        let found = self.run(values).at(&domain, &sampler.states(&domain, TAPE_LANES, 0));
+        found.existing(std::slice::from_ref(&(0..values.len())))
+    }
+
+    /// Whether values are defined at a state in balls of many digits, or in exact numbers, which take longer.
     fn are_defined_with_more_digits(&self, values: &[Expr], sampler: &Sampler, index: u64) -> bool {
         if sampler.is_numerical() {
             return false;
@@ -299,9 +316,19 @@ impl Judging<'_> {
         let is_defined = |values: &[&Number]| {
             values.iter().all(|value| matches!(value, Number::Exact(_) | Number::Ball(_)))
         };
+        let run = self.run(values);
+        for bits in &LADDER_BITS[..2] {
+            let domain = ArbBall::new(*bits);
+            let states = sampler.states(&domain, 1, index);
+            if states.iter().all(Option::is_some)
+                && run.at(&domain, &states).existing(std::slice::from_ref(&(0..values.len())))[0]
+            {
+                return true;
+            }
+        }
         let domain = Mixed::new(LADDER_BITS[0]);
         let states = sampler.states(&domain, 1, index);
-        let found = self.run(values).at(&domain, &states);
+        let found = run.at(&domain, &states);
         is_defined(&states.iter().collect::<Vec<_>>()) && is_defined(&found.range(0..values.len()))
     }
 

@@ -51,3 +51,28 @@ fn a_field_that_jumps_is_named_under_its_symmetries() {
     let smooth = found("-v");
     assert_eq!((smooth.verdict, smooth.evidence.flaws.len()), (Verdict::Proved, 0));
 }
+
+#[test]
+fn what_comes_back_from_infinity_with_the_other_sign_does_not_fall_along_motions() {
+    use liouville::case::Case;
+    use liouville::verdict::{Flaw, Independence, Options, Verdict, judge};
+    let found = |claim: &str| {
+        let text = format!(
+            "title = 'x'\n[state]\nx = '-2..2'\ny = '-2..2'\n[field]\n\"x'\" = '1 + x²'\n\"y'\" = '0'\n\
+             [[claim]]\n{claim}\n"
+        );
+        let case = Case::parse(&text, &[]).expect("a case");
+        judge(&case, &Options::default()).expect("a report").claims.remove(0)
+    };
+    for (function, jumps) in [("1/x", true), ("-tan(x)", true), ("1/(x - 5)", false), ("-x", false)]
+    {
+        let one = found(&format!("lyapunov = '{function}'"));
+        assert_eq!(one.verdict, Verdict::Proved, "{function}");
+        assert_eq!(one.evidence.flaws.contains(&Flaw::Jumps), jumps, "{function}");
+    }
+    // A function of two values is no constant.
+    for (function, mark) in [("sign(y)", None), ("y - y + 1", Some(Independence::Constant))] {
+        let one = found(&format!("integral = '{function}'"));
+        assert_eq!((one.verdict, one.evidence.independence), (Verdict::Proved, mark), "{function}");
+    }
+}

@@ -49,3 +49,32 @@ fn maps_that_can_be_inverted_on_a_level_may_not_be_elsewhere() {
     }
     assert_eq!(places("exp(z)"), ["everywhere"]);
 }
+
+#[test]
+fn an_equation_of_which_an_entry_follows_from_others_is_no_place_by_itself() {
+    let verdict = |level: &str, claim: &str, place: &str| {
+        let text = format!(
+            "title = 't'\n[state]\nx = '-2..2'\ny = '-2..2'\nz = '-2..2'\n[field]\n\"x'\" = 'y'\n\"y'\" = '0'\n\
+             \"z'\" = '0'\n[level]\nequations = [{level}]\n[[claim]]\n{claim}\nwhere = '{place}'\n"
+        );
+        let case = Case::parse(&text, &[]).map_err(|error| error.to_string())?;
+        let report = judge(&case, &Options::default()).map_err(|error| error.to_string())?;
+        Ok::<Verdict, String>(report.claims[0].verdict)
+    };
+    // z = 0 is left out of y² + z² = 0, of which y = 0 alone would be left.
+    for (level, place) in [
+        ("'z = 0', 'y² + z² = 0'", "y² + z² = 0"),
+        ("'z = 0', '[y, z] = [0, 0]'", "[y, z] = [0, 0]"),
+    ] {
+        for claim in ["identity = 'z = 0'", "independent = ['x', 'z']"] {
+            let found = verdict(level, claim, place);
+            assert!(
+                found.as_ref().is_err_and(|own| own.contains("not a place")),
+                "{claim}: {found:?}"
+            );
+        }
+        assert_eq!(verdict(level, "identity = 'z = 0'", "z = 0"), Ok(Verdict::Proved));
+    }
+    let other = "'y² + z² = 0', 'x = z'";
+    assert_eq!(verdict(other, "identity = 'z = 0'", "y² + z² = 0"), Ok(Verdict::Proved));
+}

@@ -205,8 +205,12 @@ impl ModelBuilder {
             .map(|given| self.read("U", given, Some(Type::Scalar), Dependence::Configuration))
             .transpose()?;
         self.name_quantities(own);
-        let equation =
-            |text: &str, function| LevelEquation { text: text.to_string(), function, root: None };
+        let equation = |text: &str, function| LevelEquation {
+            text: text.to_string(),
+            function,
+            root: None,
+            lacks_entries: false,
+        };
         self.level = vec![equation("|γ| = 1", LevelFunction::UnitNormal)];
         if !spins {
             self.level.push(equation("(ω,γ) = 0", LevelFunction::NoSpin));

@@ -28,6 +28,28 @@ pub struct ProvedIntegrals {
     uncounted: Vec<Formula>,
 }
 
+/// Lists the functions that a claim about a bracket names, component by component, in the names of the case.
+fn functions_of_bracket(case: &Case, kind: &ClaimKind) -> Result<Vec<Formula>, SearchError> {
+    let named = match kind {
+        ClaimKind::Casimir(own) => vec![own.function().clone()],
+        ClaimKind::Involution(own) => own.functions().to_vec(),
+        _ => return Ok(Vec::new()),
+    };
+    let mut found = Vec::new();
+    for own in named {
+        // The bracket may have variables of its own.
+        if let Ok(own) = Formula::parse(own.text(), &case.model.vocabulary) {
+            found.extend(components(&own)?);
+        }
+    }
+    Ok(found)
+}
+
+/// Text of a formula without spaces.
+fn plain(formula: &Formula) -> String {
+    formula.text().split_whitespace().collect()
+}
+
 /// Space of the polynomials in known integrals up to a degree.
 pub struct ProductSpace {
     /// Number of independent polynomials among them.
@@ -48,7 +70,11 @@ impl ProvedIntegrals {
         let has_energy = energy.is_some();
         let mut formulas: Vec<Formula> = energy.into_iter().collect();
         let mut uncounted = others.to_vec();
+        let mut further: Vec<Formula> = Vec::new();
         for (claim, report) in case.claims.iter().zip(reports) {
+            if report.verdict == Verdict::Proved {
+                further.extend(functions_of_bracket(case, &claim.kind)?);
+            }
             if let (ClaimKind::Integral(Integral(own)), Verdict::Proved) =
                 (&claim.kind, report.verdict)
             {
@@ -58,6 +84,19 @@ impl ProvedIntegrals {
                     let list = if counted { &mut formulas } else { &mut uncounted };
                     list.push(own);
                 }
+            }
+        }
+        // Functions that commute with the energy, as those of a bracket that are proved to commute with all functions.
+        for own in further {
+            let is_new = |known: &Formula| plain(known) != plain(&own);
+            if !is_energy(&own)
+                && formulas.iter().chain(&uncounted).all(is_new)
+                && judged_alone(case, Claim::integral(&own), effort)?
+                    .is_some_and(|report| report.verdict == Verdict::Proved)
+            {
+                let counted = is_one_function(case, &own, effort)?;
+                let list = if counted { &mut formulas } else { &mut uncounted };
+                list.push(own);
             }
         }
         Ok(Self { formulas, has_energy, uncounted })

@@ -147,3 +147,16 @@ fn a_listed_value_with_an_integral_refutes_for_lagrangians() {
     assert!(format!("{:?}", found.evidence).contains("for k = 0"), "{:?}", found.evidence);
     assert_ne!(only(&text("1, 2")).verdict, Verdict::Refuted, "no turn is a symmetry");
 }
+
+#[test]
+fn functions_that_claims_about_the_bracket_name_are_known() {
+    let top = "title = 'x'\n[parameters]\nI = 'vector(0.5..2)'\n[state]\nx = 'vector(-1..1)'\n[hamiltonian]\n\
+               function = 'x1²/(2*I1) + x2²/(2*I2) + x3²/(2*I3)'\nbracket = { 'x,x' = 'hat(x)' }\n";
+    let absence = "[[claim]]\nno-integral = { degree = 2 }\nexpect = 'open'\n";
+    let of = |claim: &str| only(&format!("{top}[[claim]]\n{claim}\n{absence}")).verdict;
+    assert_eq!(of("casimir = '(x,x)'"), Verdict::Proved);
+    assert_eq!(of("involution = ['energy', '(x,x)']"), Verdict::Proved);
+    // A Casimir function that is refuted is none that is known.
+    assert_eq!(of("casimir = '(x,x) + x1'\nexpect = 'fails'"), Verdict::Refuted);
+    assert_eq!(of("casimir = '1'"), Verdict::Refuted);
+}
