@@ -166,4 +166,17 @@ fn equations_that_choose_a_half_hold_also_beside_others() {
     let found = judge(&case, &Options::default()).unwrap_or_else(|error| panic!("{error}"));
     let found: Vec<Verdict> = found.claims.into_iter().map(|own| own.verdict).collect();
     assert_eq!(found, [Proved, Refuted]);
+    for (gram, determinant) in
+        [("[[2, 1], [1, 1]]", "1"), ("[[2, 1], [1, 2]]", "√3"), ("[[2, 1], [1, 2]]", "−√3")]
+    {
+        let text = format!(
+            "title = 'x'\n[state]\nR = 'matrix(2, 2, -2..2)'\n[level]\nequations = ['Rᵀ*R = {gram}', \
+             'det(R) = {determinant}']\n[field]\n\"R'\" = '[[0, 1], [−1, 0]]*R'\n[[claim]]\n\
+             identity = 'det(R) = {determinant}'\n[[claim]]\nidentity = 'det(R) = −({determinant})'\n"
+        );
+        let case = Case::parse(&text, &[]).unwrap_or_else(|error| panic!("{error}"));
+        let found = judge(&case, &Options::default()).unwrap_or_else(|error| panic!("{error}"));
+        let found: Vec<Verdict> = found.claims.into_iter().map(|own| own.verdict).collect();
+        assert_eq!(found, [Proved, Refuted], "{gram}, {determinant}");
+    }
 }

@@ -164,3 +164,29 @@ fn arctangents_are_sums_of_others_where_their_ranges_say_so() {
         assert_eq!(found, [Verdict::Refuted], "{own} on {x}");
     }
 }
+
+#[test]
+fn arguments_of_functions_are_compared_by_the_functions_inside_of_them() {
+    let cases = [
+        ("exp(exp(y)^2)", "exp(exp(2*y))", "exp(exp(3*y))"),
+        ("exp(-(x*exp(y))^2)", "exp(-x^2*exp(2*y))", "exp(-x*exp(2*y))"),
+        ("sin((x*exp(y))^2)", "sin(x^2*exp(2*y))", "cos(x^2*exp(2*y))"),
+        ("cos(exp(y)*exp(x))", "cos(exp(x + y))", "cos(exp(x - y))"),
+        ("exp(sin(2*y))", "exp(2*sin(y)*cos(y))", "exp(sin(y)*cos(y))"),
+        ("exp(sin(y)^2)*exp(cos(y)^2)", "e", "1"),
+        ("exp(sin(exp(y)^2))", "exp(sin(exp(2*y)))", "exp(sin(exp(y)))"),
+        ("atan(exp(2*y))", "atan(exp(y)^2)", "atan(exp(y))"),
+        ("exp(sqrt(3)*(sqrt(3)*x + y))", "exp(3*x + sqrt(3)*y)", "exp(3*x - sqrt(3)*y)"),
+        ("cos(sqrt(3)*(sqrt(3)*x + y))", "cos(3*x + sqrt(3)*y)", "cos(3*x - sqrt(3)*y)"),
+        ("exp(sqrt(2)*x)*exp(sqrt(3)*x)", "exp((sqrt(2) + sqrt(3))*x)", "exp(sqrt(6)*x)"),
+        ("exp(sqrt(6)*x)", "exp(sqrt(2)*sqrt(3)*x)", "exp(-sqrt(2)*sqrt(3)*x)"),
+    ];
+    for (own, value, other) in cases {
+        let claims = [format!("{own} = {value}"), format!("{own} = {other}")];
+        assert_eq!(
+            judged("0.1..2", "-1..1", &claims),
+            [Verdict::Proved, Verdict::Refuted],
+            "{own}"
+        );
+    }
+}

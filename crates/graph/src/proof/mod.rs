@@ -138,7 +138,6 @@ use digest::SeedDigest;
 use evident::{has_roots, with_evident_signs};
 use explore::{Explored, Explorer, Question};
 use lower::Algebraic;
-use relations::RelationSearch;
 use symbols::Symbols;
 use trial::{Roots, Trial, TrialResult};
 
@@ -334,14 +333,12 @@ impl Prover<'_> {
         digest: SeedDigest,
     ) -> Result<(Algebraic<'static>, Option<Certificate>), Fault> {
         let reached = graph.reached(outputs.iter().copied());
-        let opaque = Symbols::opaque(graph, &reached);
         if !symbols::any(graph, &reached) {
-            return Ok((Algebraic::of(graph, &reached, sources, &opaque)?, None));
+            let none = Symbols::opaque(graph, &reached);
+            return Ok((Algebraic::of(graph, &reached, sources, &none)?, None));
         }
-        let formal = Algebraic::formal(graph, &reached, sources, &opaque)?;
-        let mut relations = RelationSearch::new(graph, sources, formal, digest);
-        let symbols = Symbols::by_basis(graph, &reached, &mut relations);
-        Ok((Algebraic::of(graph, &reached, sources, &symbols)?, relations.certificate))
+        let (symbols, certificate) = relations::symbols(graph, &reached, sources, digest)?;
+        Ok((Algebraic::of(graph, &reached, sources, &symbols)?, certificate))
     }
 }
 

@@ -1,6 +1,6 @@
 //! Linear relations with rational coefficients between values of a graph.
 
-use crate::graph::{Evaluator, Expr, Graph, Tape, record};
+use crate::graph::{Evaluator, Expr, Fault, Graph, Step, Tape, record};
 use crate::number::prime::{Modulus, UNDEFINED};
 use crate::number::quadratic::Quadratic;
 use crate::number::rational::Rational;
@@ -39,6 +39,8 @@ pub struct RelationSearch<'g> {
     sources: &'g [InputDistribution],
     algebraic: Algebraic<'static>,
     digest: SeedDigest,
+    /// Whether relations between the arguments of functions inside of the values are used.
+    is_related: bool,
     /// Error of the relations proved so far.
     pub certificate: Option<Certificate>,
 }
@@ -51,7 +53,7 @@ impl<'g> RelationSearch<'g> {
         algebraic: Algebraic<'static>,
         digest: SeedDigest,
     ) -> Self {
-        Self { graph, sources, algebraic, digest, certificate: None }
+        Self { graph, sources, algebraic, digest, is_related: false, certificate: None }
     }
 
     /// Expresses each place's value in a basis chosen among them, together with the number 1 if
@@ -122,8 +124,8 @@ impl<'g> RelationSearch<'g> {
     /// Whether some functions of the values at these places are proved to vanish; the error of the
     /// proof is added.
     fn vanish(&mut self, places: &[usize], defects: &Defects<'_>) -> bool {
-        let Self { graph, sources, digest, .. } = *self;
-        let defect = Defect { graph, sources, digest, is_related: false };
+        let Self { graph, sources, digest, is_related, .. } = *self;
+        let defect = Defect { graph, sources, digest, is_related };
         let Some(own) = defect.vanishing(places, defects) else { return false };
         self.certificate = both(self.certificate, Some(own));
         true
@@ -175,6 +177,48 @@ pub fn rows(
     None
 }
 
+/// Gives the functions of a graph symbols, one for each element of a basis of their arguments; also returns the error
+/// of the relations between these.
+///
+/// The arguments of functions of functions are compared once more, with the relations inside of them.
+pub fn symbols(
+    graph: &Graph,
+    reached: &[bool],
+    sources: &[InputDistribution],
+    digest: SeedDigest,
+) -> Result<(Symbols, Option<Certificate>), Fault> {
+    let related = |inside: &Symbols, is_related: bool| {
+        let formal = Algebraic::formal(graph, reached, sources, inside)?;
+        let own = RelationSearch::new(graph, sources, formal, digest);
+        let mut relations = RelationSearch { is_related, ..own };
+        let symbols = Symbols::by_basis(graph, reached, &mut relations);
+        Ok((symbols, relations.certificate))
+    };
+    let opaque = Symbols::opaque(graph, reached);
+    let (first, certificate) = related(&opaque, false)?;
+    if !has_functions_of_functions(graph, reached) {
+        return Ok((first, certificate));
+    }
+    let (second, further) = related(&first, true)?;
+    Ok(match second.opaque_count() <= first.opaque_count() {
+        true => (second, both(certificate, further)),
+        false => (first, certificate),
+    })
+}
+
+/// Whether a function has another one inside, numbers such as π = 4 atan 1 excepted.
+fn has_functions_of_functions(graph: &Graph, reached: &[bool]) -> bool {
+    let (mut moves, mut has_function) = (vec![false; graph.len()], vec![false; graph.len()]);
+    let mut is_nested = |place: usize, step: Step<'_>| {
+        moves[place] = matches!(step, Step::Input(_)) || step.arguments().any(|a| moves[a]);
+        let inside = step.arguments().any(|a| has_function[a]);
+        has_function[place] = inside || step.is_transcendental() && moves[place];
+        inside && step.is_transcendental()
+    };
+    let mut steps = graph.steps().enumerate().filter(|(place, _)| reached[*place]);
+    steps.any(|(place, step)| is_nested(place, step))
+}
+
 /// A test of functions of the values at some places of a graph.
 #[derive(Clone, Copy)]
 pub struct Defect<'d> {
@@ -197,15 +241,9 @@ impl Defect<'_> {
             record(sources.len(), |inputs| defects(&self.graph.repeated(&reached, inputs))).ok()?;
         let defects = defects?;
         let reached = graph.reached(defects.iter().copied());
-        let opaque = Symbols::opaque(&graph, &reached);
         let (symbols, related) = match self.is_related {
-            true => {
-                let formal = Algebraic::formal(&graph, &reached, sources, &opaque).ok()?;
-                let mut relations = RelationSearch::new(&graph, sources, formal, digest);
-                let symbols = Symbols::by_basis(&graph, &reached, &mut relations);
-                (symbols, relations.certificate)
-            }
-            false => (opaque, None),
+            true => symbols(&graph, &reached, sources, digest).ok()?,
+            false => (Symbols::opaque(&graph, &reached), None),
         };
         let lowered = Algebraic::of(&graph, &reached, sources, &symbols).ok()?;
         let values: Option<Vec<Expr>> =

@@ -61,6 +61,11 @@ impl Symbols {
         symbols
     }
 
+    /// Number of functions with a symbol of their own.
+    pub fn opaque_count(&self) -> usize {
+        self.forms.values().filter(|form| matches!(form, SymbolForm::Opaque(_))).count()
+    }
+
     /// Gives each element of a basis a symbol; `relations` finds linear relations between values of
     /// the graph, proved like any identity.
     pub fn by_basis(graph: &Graph, reached: &[bool], relations: &mut RelationSearch<'_>) -> Self {

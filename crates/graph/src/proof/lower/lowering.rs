@@ -25,8 +25,8 @@ impl Algebraic<'_> {
         Self::made(graph, reached, sources, symbols, false)
     }
 
-    /// Lowers with a symbol for each root of an integer, so that relations with rational
-    /// coefficients are distinguished from those that hold for one value of √2 modulo one prime.
+    /// Lowers with either root of each integer, drawn by a sign, and a symbol for each further root, so that relations
+    /// with rational coefficients are distinguished from those that hold for one value of √2 modulo one prime.
     pub fn formal(
         graph: &Graph,
         reached: &[bool],

@@ -65,9 +65,13 @@ impl Lowering<'_> {
         while roots.len() < length as usize {
             let radicand = Expr::rational(&self.numbers.integer(number));
             let last = roots.last().copied().unwrap_or(radicand);
-            roots.push(match self.has_formal_numbers {
-                true => self.input(InputDistribution::Uniform),
-                false => last.apply(UnaryFunction::Sqrt),
+            roots.push(match (self.has_formal_numbers, roots.is_empty()) {
+                // Both roots of an integer are drawn: what holds with rational coefficients does for each.
+                (true, true) => {
+                    self.input(InputDistribution::Sign) * radicand.apply(UnaryFunction::Sqrt)
+                }
+                (true, false) => self.input(InputDistribution::Uniform),
+                (false, _) => last.apply(UnaryFunction::Sqrt),
             });
         }
         let value = roots[length as usize - 1];
