@@ -97,7 +97,7 @@
 //! # Ok::<(), liouville::graph::Fault>(())
 //! ```
 
-pub use liouville_graph::{assembler, engine, graph, number, proof, scalar};
+pub use liouville_graph::{assembler, engine, graph, number, order, proof, scalar};
 
 pub mod case;
 pub mod claim;

@@ -6,6 +6,7 @@ use crate::formula::{Formula, Type};
 use crate::graph::{Expr, Fault, Graph, record};
 use crate::mechanics::calculus::DualPoint;
 use crate::mechanics::{Meaning, ParameterOrigin, Phase, components};
+use crate::order::StableOrder;
 use crate::requirement;
 
 /// A case recorded as one graph, with names for its inputs and functions for its outputs.
@@ -171,7 +172,7 @@ fn named<'f>(
         _ => false,
     });
     symbols.extend(of_parameters.map(|(symbol, _)| symbol));
-    symbols.sort();
+    symbols.order();
     symbols.dedup();
     let is_named = |symbol: &crate::formula::Symbol| match model.vocabulary.entry(*symbol).meaning {
         Meaning::Parameter(index) => is_formula(index),

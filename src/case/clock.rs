@@ -6,6 +6,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use crate::order::StableOrder;
+
 use super::Case;
 
 /// Names of claims by their places in the file.
@@ -37,7 +39,7 @@ impl TimeParts {
     /// Sorts what has names of claims into the order of the file.
     pub fn sort<T>(&self, items: &mut [T], name: impl Fn(&T) -> &str) {
         let place = |item: &T| self.order.iter().position(|own| own == name(item));
-        items.sort_by_key(place);
+        items.order_by_key(place);
     }
 }
 

@@ -5,6 +5,7 @@ use std::ops::Range;
 use super::claims::statements_with;
 use super::utf8::NotUtf8;
 use crate::formula::{FormulaError, Type};
+use crate::order::StableOrder;
 
 /// Mistakes of a case file, at least one, in the order of the file.
 ///
@@ -187,7 +188,7 @@ impl CaseError {
                 .map(|before| before.chars().rev().take_while(|c| *c != '\n').count() as u32 + 1);
         }
         // mistakes of the file as a whole come first
-        mistakes.sort_by_key(|mistake| mistake.span.as_ref().map(|span| span.start));
+        mistakes.order_by_key(|mistake| mistake.span.as_ref().map(|span| span.start));
         Self { mistakes }
     }
 

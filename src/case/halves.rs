@@ -3,6 +3,7 @@
 use super::implied::{is_reaction, places_of_constraints, uses_reactions};
 use crate::level::{OfFrame, of_frames};
 use crate::mechanics::{LevelEquation, Model, Orientation, System};
+use crate::order::StableOrder;
 
 /// Takes equations out of the level that hold on a half, or on all, of an orthonormal basis which other equations
 /// fix, and keeps the halves; returns a remark on each that is left out. Of a Lagrangian's these are constraints on
@@ -30,7 +31,7 @@ pub fn take_out(model: &mut Model, is_given: impl Fn(&LevelEquation) -> bool) ->
         let is_own = || is_known && is_free() || is_given(&model.level[own.index]);
         constraint(own.index).is_some() || is_own()
     });
-    found.sort_by_key(|own| own.index);
+    found.order_by_key(|own| own.index);
     let mut remarks = Vec::new();
     for OfFrame { index, half } in found.into_iter().rev() {
         let own = constraint(index);

@@ -9,6 +9,7 @@ use std::collections::BTreeSet;
 use super::build::Attempt;
 use super::error::{Mistake, Problem};
 use crate::formula::FormulaError;
+use crate::order::StableOrder;
 
 /// Number of lists above which at most two of them are tried as matrices at once.
 const MOST_TRIED: usize = 6;
@@ -22,7 +23,7 @@ pub fn settled(read: &dyn Fn(&BTreeSet<String>) -> Attempt) -> Attempt {
     }
     // tensors of inertia and of shape are likelier than others
     let mut lists = best.lists.clone();
-    lists.sort_by_key(|name| (name != "I", name != "B"));
+    lists.order_by_key(|name| (name != "I", name != "B"));
     lists.dedup();
     for subset in subsets(&lists) {
         let attempt = read(&subset);
@@ -112,7 +113,7 @@ fn subsets(lists: &[String]) -> Vec<BTreeSet<String>> {
         return single.chain(pairs).chain([lists.iter().cloned().collect()]).collect();
     }
     let mut masks: Vec<u32> = (1..1 << lists.len()).collect();
-    masks.sort_by_key(|mask| mask.count_ones());
+    masks.order_by_key(|mask| mask.count_ones());
     let chosen = |mask: u32| {
         let inside = lists.iter().enumerate().filter(move |(k, _)| mask >> k & 1 == 1);
         inside.map(|(_, name)| name.clone()).collect()

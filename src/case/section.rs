@@ -10,6 +10,7 @@ use super::error::{Mistake, Problem};
 use super::mistakes::Mistakes;
 use super::synonyms::meant;
 use crate::formula::{excerpt, nearest};
+use crate::order::StableOrder;
 
 /// A string of the file with its place.
 #[derive(Clone, Debug)]
@@ -285,7 +286,7 @@ impl<'a> CaseTable<'a> {
         &self,
     ) -> Vec<(&'a Spanned<std::borrow::Cow<'a, str>>, &'a Spanned<DeValue<'a>>)> {
         let mut entries: Vec<_> = self.table.iter().collect();
-        entries.sort_by_key(|(key, _)| key.span().start);
+        entries.order_by_key(|(key, _)| key.span().start);
         entries
     }
 

@@ -1,5 +1,7 @@
 //! Substitution of a formula for a name.
 
+use crate::order::StableOrder;
+
 use super::arena::{Arena, ElementaryFunction, Node, NodeId, NodeOperation};
 use super::binders::is_form;
 use super::bond::{Bond, is_signed};
@@ -129,7 +131,7 @@ impl Formula {
             let text = format!("{open}{}{close}{index}", by.written());
             edits.push(Edit { span, text, inside: open.len(), index: index.len() });
         }
-        edits.sort_by_key(|edit| edit.span.start);
+        edits.order_by_key(|edit| edit.span.start);
         Ok(edits)
     }
 }

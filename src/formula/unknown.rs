@@ -1,5 +1,7 @@
 //! Unknown names and suggestions for them.
 
+use crate::order::StableOrder;
+
 use super::error::{FormulaError, Span, excerpt};
 use super::lexer::TokenKind;
 use super::names::{canonical_name, look_alike, spelled_names};
@@ -138,7 +140,7 @@ impl Parser<'_> {
             ));
         }
         let mut names = self.scope.names();
-        names.sort();
+        names.order();
         if let Some(help) = look_alike(name, names.iter().map(String::as_str)) {
             return Some(help);
         }

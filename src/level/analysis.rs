@@ -13,6 +13,7 @@ use super::solution::Solution;
 use super::steps::{SolutionStep, choices};
 use crate::graph::Expr;
 use crate::mechanics::{Model, ParameterOrigin, components};
+use crate::order::StableOrder;
 
 /// Largest number of equations of a level.
 const MOST_EQUATIONS: usize = 64;
@@ -118,7 +119,7 @@ impl OrderSearch<'_> {
         while !left.is_empty() {
             let unknown = |index: &usize| self.derivatives[*index].contained() & !settled;
             let mut blocks: Vec<Set> = left.iter().map(unknown).collect();
-            blocks.sort_by_key(|set| (set.count_ones(), *set));
+            blocks.order_by_key(|set| (set.count_ones(), *set));
             blocks.dedup();
             let solved_by = |block: Set| {
                 let members: Vec<usize> =

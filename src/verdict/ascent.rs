@@ -11,6 +11,7 @@ use crate::claim::Excess;
 use crate::mechanics::Draw;
 use crate::number::ball::Ball;
 use crate::number::rational::Rational;
+use crate::order::StableOrder;
 
 /// Number of states that each height is climbed from.
 const STARTS: usize = 8;
@@ -111,7 +112,7 @@ impl<'s> Ascent<'s> {
             self.sampler.nearest_draws(lane as u64).into_iter().map(|(value, _)| value).collect()
         };
         let mut all = self.reached((0..TAPE_LANES).map(drawn).collect(), height);
-        all.sort_by(|a, b| b.height.total_cmp(&a.height));
+        all.order_by(|a, b| b.height.total_cmp(&a.height));
         all.truncate(STARTS);
         all
     }

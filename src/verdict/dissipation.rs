@@ -19,6 +19,7 @@ use crate::mechanics::{
 };
 use crate::number::ball::Ball;
 use crate::number::rational::Rational;
+use crate::order::StableOrder;
 use crate::proof::{
     NamedPolynomial, SimplerForm, completed_squares, factored_sum, is_nowhere_zero, simpler_forms,
     volterra_sum,
@@ -158,7 +159,7 @@ fn rates(
     let mut seen = BTreeSet::new();
     all.retain(|text| seen.insert(text.clone()));
     all.retain(|text| stage == Stage::All || text.len() <= SHORT);
-    all.sort_by_key(String::len);
+    all.order_by_key(String::len);
     if sampler.has_lists() {
         // Where a divisor is 0 for a listed value nothing would be said of that.
         let mut are_kept = Vec::new();

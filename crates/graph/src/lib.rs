@@ -9,5 +9,6 @@ pub mod assembler;
 pub mod engine;
 pub mod graph;
 pub mod number;
+pub mod order;
 pub mod proof;
 pub mod scalar;

@@ -19,6 +19,7 @@ use liouville::claim::{Claim, LevelSubset};
 use liouville::formula::{Formula, FormulaError};
 use liouville::graph::Expr;
 use liouville::number::rational::Rational;
+use liouville::order::StableOrder;
 use liouville::scalar::Scalar;
 use liouville::verdict::{ClaimReport, Independence, Verdict};
 
@@ -46,7 +47,7 @@ pub fn integrals(
         })
         .collect();
     // Of functions that depend on each other, the shortest is reported; those linear in the velocities first.
-    proved.sort_by_key(|(formula, _)| formula.text().chars().count());
+    proved.order_by_key(|(formula, _)| formula.text().chars().count());
     let (linear, proved) = split(case, proved, effort)?;
     for (formula, found) in linear {
         effort.halt.check()?;

@@ -11,6 +11,7 @@ use super::reduced::ReducedEchelon;
 use super::series::{TruncatedSeries, exponents};
 use super::{Halt, SearchError};
 use liouville::number::prime::Modulus;
+use liouville::order::StableOrder;
 
 /// Exponents of the velocities, and the index of a monomial in the positions.
 pub type RowKey = (Vec<u32>, usize);
@@ -66,7 +67,7 @@ impl Equations {
     pub fn ranked(&self, budget: &Budget<'_>) -> Result<ReducedEchelon, SearchError> {
         let mut rows: Vec<Entries> = self.rows.iter().map(|(_, row)| self.merged(row)).collect();
         rows.retain(|row| !row.is_empty());
-        rows.sort_by_key(|row| (std::cmp::Reverse(row[0].0), row.len()));
+        rows.order_by_key(|row| (std::cmp::Reverse(row[0].0), row.len()));
         let mut reduced = ReducedEchelon::new(self.columns.len(), self.modulus);
         let count = rows.len();
         for (place, row) in rows.into_iter().enumerate() {
@@ -134,7 +135,7 @@ impl Equations {
         // Columns from high order to low, so that the free ones are of low order.
         let mut columns: Vec<(usize, usize)> =
             (0..powers.len()).flat_map(|a| (0..monomials.len()).map(move |k| (a, k))).collect();
-        columns.sort_by_key(|(a, k)| (std::cmp::Reverse(degrees[*k]), *a, *k));
+        columns.order_by_key(|(a, k)| (std::cmp::Reverse(degrees[*k]), *a, *k));
         let all = terms(expansion, series, weight, &modulus);
         let mut blocks = Blocks { place: FxHashMap::default(), rows: Vec::new() };
         let met: Vec<Vec<(usize, u64, &Term)>> = powers
@@ -244,7 +245,7 @@ impl Blocks {
 
     /// Returns the rows that are not empty, in the order of their keys.
     fn sorted(mut self) -> Vec<(RowKey, Entries)> {
-        self.rows.sort_by(|(a, _), (b, _)| a.cmp(b));
+        self.rows.order_by(|(a, _), (b, _)| a.cmp(b));
         let of_block = |(power, rows): (Vec<u32>, Vec<Entries>)| {
             let present = rows.into_iter().enumerate().filter(|(_, row)| !row.is_empty());
             present.map(move |(place, row)| ((power.clone(), place), row))

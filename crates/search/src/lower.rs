@@ -7,6 +7,7 @@ use liouville::case::Case;
 use liouville::claim::Claim;
 use liouville::formula::Formula;
 use liouville::mechanics::{System, VariableRole};
+use liouville::order::StableOrder;
 use liouville::verdict::{ClaimReport, Verdict};
 
 use super::ask::{independent, judged_alone};
@@ -50,7 +51,7 @@ pub fn prefer(
         .iter()
         .filter(|(at, _, degree)| is_first(*at) && degree.is_none_or(|degree| degree > own))
         .collect();
-    higher.sort_by_key(|(_, _, degree)| std::cmp::Reverse(degree.unwrap_or(u32::MAX)));
+    higher.order_by_key(|(_, _, degree)| std::cmp::Reverse(degree.unwrap_or(u32::MAX)));
     for (place, _, _) in higher {
         effort.halt.check()?;
         let others = told.iter().filter(|(at, ..)| is_first(*at) && at != place);

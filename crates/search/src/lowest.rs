@@ -3,6 +3,7 @@
 use liouville::case::Case;
 use liouville::claim::{Claim, MOST_COMPARED};
 use liouville::formula::Formula;
+use liouville::order::StableOrder;
 use liouville::verdict::Verdict;
 
 use super::products::Generators;
@@ -33,7 +34,7 @@ pub fn lowest(
     if each.len() == before {
         return Ok(None);
     }
-    each.sort_by_key(|(_, degree)| *degree);
+    each.order_by_key(|(_, degree)| *degree);
     let mut kept: Vec<(Formula, u32)> = Vec::new();
     for (formula, degree) in each.into_iter().take(MOST_COMPARED) {
         // What a stopped search has counted is concluded from.

@@ -13,6 +13,7 @@ use liouville::formula::{Formula, FormulaError, FormulaResult, Type};
 use liouville::graph::Step;
 use liouville::mechanics::{Lagrangian, System, VariableRole};
 use liouville::number::UnaryFunction;
+use liouville::order::StableOrder;
 use liouville::verdict::Verdict;
 
 use super::ansatz::coefficients::{NullVector, PrimitiveVector, Ratio};
@@ -50,7 +51,7 @@ pub fn integrals(
     let Some(mut new) = complement(&forms.system, &at, &all, &products(&known))? else {
         return Ok(());
     };
-    new.sort_by_key(|vector| forms.degree(vector));
+    new.order_by_key(|vector| forms.degree(vector));
     for vector in new.into_iter().take(MOST_INTEGRALS) {
         effort.halt.check()?;
         let support = nonzero(&vector);
@@ -196,7 +197,7 @@ impl LinearForms {
         let names = case.model.state_names();
         let place = |own: &Formula| names.iter().position(|name| name == own.text());
         let mut order: Vec<usize> = (0..all.len()).collect();
-        order.sort_by_key(|k| place(&all[*k]).unwrap_or(names.len()));
+        order.order_by_key(|k| place(&all[*k]).unwrap_or(names.len()));
         let terms = order.iter().map(|k| all[*k].clone()).collect();
         Ok(Some(Self { terms, order, positions, monomials, system, known, driven, one: unit }))
     }

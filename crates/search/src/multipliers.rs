@@ -22,6 +22,7 @@ use super::{Effort, Excluded, Found, FoundKind, SearchError, SearchReport};
 use liouville::case::Case;
 use liouville::claim::Claim;
 use liouville::number::rational::Rational;
+use liouville::order::StableOrder;
 
 /// Values of α to try: P^(m/n) is Q^(1/n) with Q = P^m.
 pub const WEIGHTS: [i64; 8] = [1, -1, 2, -2, 3, -3, 4, -4];
@@ -131,7 +132,7 @@ fn find(
 ) -> Result<(), SearchError> {
     let terms = terms(case, effort, report)?;
     let mut candidates = over_denominators(case, &terms, &Rational::from(alpha), effort, report)?;
-    candidates.sort_by_key(|formula| formula.text().chars().count());
+    candidates.order_by_key(|formula| formula.text().chars().count());
     let power = numeric_exponent(Rational::new(alpha.signum(), alpha.abs()))?;
     for polynomial in candidates {
         let formula = multiplied(&[(polynomial, power.clone())])?;

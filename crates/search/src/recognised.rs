@@ -16,6 +16,7 @@ use liouville::case::Case;
 use liouville::claim::Claim;
 use liouville::formula::{Formula, FormulaError, Type};
 use liouville::mechanics::{Dependence, Meaning};
+use liouville::order::StableOrder;
 use liouville::verdict::{ClaimReport, Verdict};
 
 /// Length in letters of a formula that is left as it is.
@@ -115,7 +116,7 @@ impl Sums {
             let sum = coefficients.sum_with_plus(&places, &functions)?;
             formulas.extend(sum.map(|(sum, _)| sum));
         }
-        formulas.sort_by_key(|formula| formula.text().chars().count());
+        formulas.order_by_key(|formula| formula.text().chars().count());
         let all: Vec<&Formula> = formulas.iter().chain(others).collect();
         let dimension = case.model.dimension();
         let mut system = LinearSystem::record(case, effort, |jet, recording| {
@@ -203,7 +204,7 @@ fn exchange(
                 report.excluded.iter().all(|own| !own.theorem.contains(text))
             })
             .collect();
-        order.sort_by_key(|k| std::cmp::Reverse(told(report, places[*k])));
+        order.order_by_key(|k| std::cmp::Reverse(told(report, places[*k])));
         // One of lower degree in the velocities says more.
         let mut kept = Vec::new();
         for k in order {
@@ -275,7 +276,7 @@ fn inner_products(case: &Case, effort: &Effort) -> Result<Vec<(Formula, u32)>, S
             }
         }
     }
-    products.sort_by_key(|own: &Formula| own.text().chars().count());
+    products.order_by_key(|own: &Formula| own.text().chars().count());
     let everything = Coordinates::all_moving(case);
     let mut found = Vec::new();
     for formula in products.into_iter().take(MOST_PRODUCTS) {

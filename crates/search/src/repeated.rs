@@ -2,6 +2,7 @@
 
 use liouville::case::Case;
 use liouville::claim::Claim;
+use liouville::order::StableOrder;
 use liouville::verdict::Verdict;
 
 use super::ask::judged_alone;
@@ -18,7 +19,7 @@ pub fn remove(case: &Case, effort: &Effort, report: &mut SearchReport) -> Result
     };
     let mut open: Vec<usize> =
         (0..report.found.len()).filter(|place| has_kind(&report.found[*place])).collect();
-    open.sort_by_key(|place| report.found[*place].text().chars().count());
+    open.order_by_key(|place| report.found[*place].text().chars().count());
     let (mut kept, mut repeated): (Vec<&Found>, Vec<usize>) = (Vec::new(), Vec::new());
     for place in open {
         let own = &report.found[place];

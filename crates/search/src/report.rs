@@ -150,7 +150,12 @@ impl SearchReport {
         effort: &Effort,
         run: impl FnOnce(&mut Self) -> Result<(), SearchError>,
     ) -> Result<(), SearchError> {
-        match effort.halt.check().and_then(|()| run(self)) {
+        let outcome = effort.halt.check().and_then(|()| run(self));
+        self.note(name, outcome)
+    }
+
+    fn note(&mut self, name: &str, outcome: Result<(), SearchError>) -> Result<(), SearchError> {
+        match outcome {
             Err(SearchError::Stopped) => {
                 self.unreached.push(name.to_string());
                 Ok(())

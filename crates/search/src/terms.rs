@@ -25,10 +25,14 @@ pub fn recorded<R>(
 ) -> Result<(Graph, R), Fault> {
     let model = &case.model;
     let inputs = model.free_components() + model.dimension();
-    record(inputs, |inputs| {
-        let (parameters, state) = inputs.split_at(model.free_components());
-        make(&DualPoint::new(Phase::new(model, parameters, state)))
-    })
+    record(inputs, |inputs| make(&point_of(case, inputs)))
+}
+
+/// The point whose parameters and state are these inputs; compiled once, not for each closure.
+#[inline(never)]
+fn point_of<'a>(case: &'a Case, inputs: &'a [Expr]) -> DualPoint<'a, Expr> {
+    let (parameters, state) = inputs.split_at(case.model.free_components());
+    DualPoint::new(Phase::new(&case.model, parameters, state))
 }
 
 /// Steps of a record that depend on the state, whose inputs follow those of the parameters.

@@ -4,6 +4,7 @@ use super::Cover;
 use super::node::Node;
 use super::solving::Coefficients;
 use crate::graph::Fault;
+use crate::order::StableOrder;
 use crate::proof::sign;
 
 impl Cover<'_> {
@@ -16,7 +17,7 @@ impl Cover<'_> {
         };
         let mut order: Vec<(Vec<usize>, usize)> =
             (0..node.equations.len()).map(|index| (contained(index), index)).collect();
-        order.sort_by_key(|(inputs, index)| (inputs.len(), *index));
+        order.order_by_key(|(inputs, index)| (inputs.len(), *index));
         for equations in order.chunk_by(|(one, _), (other, _)| one.len() == other.len()) {
             // Of equations with as many unknowns one with the best solution is taken.
             let mut ways: Vec<(usize, Coefficients)> = Vec::new();
@@ -43,7 +44,7 @@ impl Cover<'_> {
                     }
                 }
             }
-            ways.sort_by_key(|(cost, _)| *cost);
+            ways.order_by_key(|(cost, _)| *cost);
             for (_, way) in ways {
                 if let Some(children) = way.solutions(self, node)? {
                     return Ok(Some(children));

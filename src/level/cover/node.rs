@@ -58,6 +58,9 @@ pub struct Additions {
     pub divisor: Option<Expr>,
 }
 
+/// Adds to a node, from the draws and from the values of the node before a draw is solved for.
+type Adding<'a> = dyn FnMut(&[Expr], &[Option<Expr>]) -> Option<Additions> + 'a;
+
 impl Node {
     /// Makes the node of all points at which the equations of a level hold; `None` if they contain
     /// antiderivatives.
@@ -317,6 +320,12 @@ impl Node {
         change: &Change<'_>,
         more: impl FnOnce(&[Expr], &[Option<Expr>]) -> Option<Additions>,
     ) -> Result<Self, Fault> {
+        let mut more = Some(more);
+        self.changed_by(change, &mut |inputs, before| more.take()?(inputs, before))
+    }
+
+    /// The same for any closure, compiled once.
+    fn changed_by(&self, change: &Change<'_>, more: &mut Adding<'_>) -> Result<Self, Fault> {
         let kept = (0..self.equations.len()).filter(|index| change.dropped != Some(*index));
         let equations: Vec<Expr> = kept.map(|index| self.equations[index]).collect();
         let all = self.made.iter().chain(&self.equations).chain(&self.facts).chain(&self.divisors);

@@ -6,6 +6,8 @@
 //! of points strewn over a strange attractor. Motions that close in on points are told apart by these, in
 //! whatever direction they come.
 
+use liouville::order::StableOrder;
+
 /// Number of samples of a motion, at times that share no period with it.
 pub const SAMPLES: usize = 160;
 /// Distance, in spacings of samples, up to which samples lie in one set.
@@ -203,7 +205,7 @@ fn distance(
         nearest.map_or(f64::INFINITY, |(_, other)| measure(row, other))
     };
     let mut all: Vec<f64> = from.iter().enumerate().map(nearest).collect();
-    all.sort_by(f64::total_cmp);
+    all.order_by(f64::total_cmp);
     all.get(all.len() / 2).map_or(f64::INFINITY, |middle| middle.sqrt())
 }
 

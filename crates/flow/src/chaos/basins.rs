@@ -15,6 +15,7 @@ use liouville::case::Case;
 use liouville::formula::canonical_name;
 use liouville::number::double_double::DoubleDouble;
 use liouville::number::rational::Rational;
+use liouville::order::StableOrder;
 
 /// Number of motions whose samples are kept at once.
 const WAVE: usize = 4096;
@@ -326,7 +327,7 @@ impl Found {
             }
         }
         let mut order: Vec<usize> = (0..counts.len()).filter(|index| counts[*index] > 0).collect();
-        order.sort_by_key(|index| std::cmp::Reverse(counts[*index]));
+        order.order_by_key(|index| std::cmp::Reverse(counts[*index]));
         let attractor = |index: &usize| {
             let (first, exponents) = (&self.sets[*index], exponents[*index].clone());
             Attractor {

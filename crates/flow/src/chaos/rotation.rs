@@ -7,6 +7,8 @@
 
 use std::f64::consts::TAU;
 
+use liouville::order::StableOrder;
+
 use crate::closed::through::MeasuredNumber;
 
 /// Smallest number of advances of which a mean is taken.
@@ -90,7 +92,7 @@ struct Order<'a> {
 impl<'a> Order<'a> {
     fn new(angles: &'a [f64]) -> Self {
         let mut places: Vec<usize> = (0..angles.len()).collect();
-        places.sort_by(|a, b| angles[*a].total_cmp(&angles[*b]));
+        places.order_by(|a, b| angles[*a].total_cmp(&angles[*b]));
         Self { angles, places }
     }
 
@@ -157,7 +159,7 @@ fn is_curve(angles: &[f64]) -> bool {
         others.map(|(_, other)| apart(triples[index], other)).fold(f64::INFINITY, f64::min)
     };
     let mut squares: Vec<f64> = (0..triples.len()).map(nearest).collect();
-    squares.sort_by(f64::total_cmp);
+    squares.order_by(f64::total_cmp);
     let median = squares.get(squares.len() / 2).map_or(f64::NAN, |square| square.sqrt());
     let extent = |place: usize| {
         let values = triples.iter().map(|own| own[place]);
@@ -172,12 +174,12 @@ fn is_curve(angles: &[f64]) -> bool {
 /// Values below which an advance gets another turn: in the middle of the widest gaps between advances.
 fn cuts(advances: &[f64]) -> Vec<f64> {
     let mut sorted = advances.to_vec();
-    sorted.sort_by(f64::total_cmp);
+    sorted.order_by(f64::total_cmp);
     let first = sorted.first().map(|first| first + 1.0);
     let ends = sorted.iter().skip(1).copied().chain(first);
     let mut gaps: Vec<[f64; 2]> =
         sorted.iter().zip(ends).map(|(from, to)| [to - from, (from + to) / 2.0]).collect();
-    gaps.sort_by(|a, b| b[0].total_cmp(&a[0]));
+    gaps.order_by(|a, b| b[0].total_cmp(&a[0]));
     gaps.into_iter().take(CUTS).map(|[_, middle]| turned(middle)).collect()
 }
 

@@ -13,6 +13,7 @@ use crate::taylor::stepper::{Accuracy, Stepper};
 use crate::told::ToldShare;
 use liouville::mechanics::Model;
 use liouville::number::double_double::DoubleDouble;
+use liouville::order::StableOrder;
 
 /// All exponents of a motion on its level, the largest first.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -138,7 +139,7 @@ fn spectrum(
     let blocks = &sums.blocks[1..];
     let of = |index: usize| estimate(&blocks.iter().map(|block| block[index]).collect::<Vec<_>>());
     let mut exponents: Vec<Estimate> = (0..count).map(of).collect();
-    exponents.sort_by(|a, b| b.mean.total_cmp(&a.mean));
+    exponents.order_by(|a, b| b.mean.total_cmp(&a.mean));
     Ok(Spectrum { time, exponents, divergence: estimate(&sums.volumes[1..]) })
 }
 

@@ -2,6 +2,8 @@
 
 use nalgebra::{Complex, DMatrix, DVector};
 
+use liouville::order::StableOrder;
+
 use crate::closed::through::MeasuredNumber;
 
 /// Roundings of the largest entry of a derivative that the entries of its part across the flow may have.
@@ -165,7 +167,7 @@ pub(crate) fn all(
         Multiplier { re: value.re, im: value.im, error, modulus_error: error }
     };
     let mut multipliers: Vec<Multiplier> = values.iter().map(|value| of(*value)).collect();
-    multipliers.sort_by(|a, b| b.modulus().total_cmp(&a.modulus()).then(b.im.total_cmp(&a.im)));
+    multipliers.order_by(|a, b| b.modulus().total_cmp(&a.modulus()).then(b.im.total_cmp(&a.im)));
     let kind = kind(&multipliers);
     (multipliers, kind)
 }

@@ -176,7 +176,7 @@ impl<'c> SectionMap<'c> {
             };
             let departure = departure.get_or_insert_with(|| end(T::ZERO));
             let doubt = || self.program.rounding::<T>(0, &stepper.pairs(0), 0.0);
-            for event in sides.events(&across, piece.length(), doubt) {
+            for event in sides.events(&across, piece.length(), &doubt) {
                 let Event::Crossing { after, .. } = event else { continue };
                 if value(&along, after).0.leading() <= 0.0 {
                     continue;

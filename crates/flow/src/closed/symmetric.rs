@@ -13,6 +13,7 @@ use crate::section::andoyer::spread;
 use crate::section::rolling::{SectionOrbit, SectionRequest, section};
 use liouville::case::{Angle, Case, Direction, FixedLine};
 use liouville::number::rational::Rational;
+use liouville::order::StableOrder;
 
 /// All lines.
 const LINES: [FixedLine; 3] = [FixedLine::Equator, FixedLine::Meridian, FixedLine::QuarterMeridian];
@@ -131,7 +132,7 @@ pub fn symmetric_orbits(request: &SymmetricRequest<'_>) -> Result<SymmetricOrbit
         }
     }
     let mut found = search.found;
-    found.orbits.sort_by_key(|orbit| orbit.point.period);
+    found.orbits.order_by_key(|orbit| orbit.point.period);
     Ok(found)
 }
 

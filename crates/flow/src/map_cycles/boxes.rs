@@ -8,6 +8,8 @@
 
 use std::collections::VecDeque;
 
+use liouville::order::StableOrder;
+
 use super::newton::{PointBox, PointSearch};
 use crate::halt::Halt;
 
@@ -74,7 +76,7 @@ pub fn all(search: &mut PointSearch<'_>, ends: &[[f64; 2]]) -> Found {
         let pairs = a.middle.iter().zip(&b.middle).map(|(x, y)| x.total_cmp(y));
         pairs.fold(std::cmp::Ordering::Equal, |order, own| order.then(own))
     };
-    found.points.sort_by(by_place);
+    found.points.order_by(by_place);
     found
 }
 

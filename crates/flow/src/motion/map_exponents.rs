@@ -12,6 +12,7 @@ use crate::taylor::batch::each;
 use crate::told::ToldShare;
 use liouville::case::Case;
 use liouville::number::double_double::DoubleDouble;
+use liouville::order::StableOrder;
 
 /// Number of vectors that are not made orthogonal; the alignment index takes two.
 const LOOSE: usize = 2;
@@ -123,7 +124,7 @@ fn along(
     }
     let of = |place: usize| -> Vec<f64> { blocks.iter().map(|means| means[place]).collect() };
     let mut exponents: Vec<_> = (0..basis.len()).map(|place| estimate(&of(place))).collect();
-    exponents.sort_by(|a, b| b.mean.total_cmp(&a.mean));
+    exponents.order_by(|a, b| b.mean.total_cmp(&a.mean));
     let spectrum = Spectrum { time: count as f64, exponents, divergence: largest.divergence };
     Ok(MapExponents { largest, spectrum })
 }

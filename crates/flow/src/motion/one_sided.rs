@@ -181,7 +181,7 @@ impl<T: SeriesNumber<One = T>> Walk<'_, T> {
             if is_at_0 || leaves && self.free.steps(0) == 0 {
                 polynomial[0] = T::ZERO;
             }
-            let events = sides.events(&polynomial, piece.length(), doubt);
+            let events = sides.events(&polynomial, piece.length(), &doubt);
             let begins = below.map(|after| Event::Crossing { after, rising: false });
             for event in begins.into_iter().chain(events) {
                 let after = match event {
@@ -233,7 +233,7 @@ impl<T: SeriesNumber<One = T>> Walk<'_, T> {
             let doubt = || self.phases.contact.rounding::<T>(0, &self.contact.pairs(0), 0.0);
             let is_below = !is_held && polynomial[0].leading() < -DOUBTS * doubt();
             let below = is_below.then_some(T::ZERO);
-            let events = sides.events(&polynomial, piece.length(), doubt);
+            let events = sides.events(&polynomial, piece.length(), &doubt);
             let begins = below.map(|after| Event::Crossing { after, rising: false });
             for event in begins.into_iter().chain(events) {
                 is_held &= !matches!(event, Event::Crossing { rising: true, .. });

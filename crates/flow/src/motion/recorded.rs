@@ -7,8 +7,8 @@ use crate::motion::start::LevelFunctions;
 use crate::taylor::merge::merged;
 use crate::taylor::program::TaylorProgram;
 use crate::taylor::quotients::jumps;
-use crate::taylor::watch::{Presence, written};
-use liouville::graph::{Expr, record};
+use crate::taylor::watch::{Presence, Written, written};
+use liouville::graph::{Expr, Graph, record};
 use liouville::mechanics::{Model, Phase};
 use liouville::number::rational::Rational;
 use liouville::scalar::Scalar;
@@ -94,27 +94,40 @@ pub(crate) fn extended_program(
         return Err(FlowError::Discrete);
     }
     let dimension = model.dimension();
-    let (graph, (rates, mut outputs, written)) = record(dimension + more, |inputs| {
+    let (graph, (rates, outputs, written)) = record(dimension + more, |inputs| {
         let (state, more) = inputs.split_at(dimension);
         let phase = Phase::new(model, &filled(parameters, loose, more), state);
         let (rates, outputs) = build(&phase, more);
         (rates, outputs, written(&phase))
     })?;
+    compiled(model, parameters, loose, more, &graph, (rates, outputs, written))
+}
+
+/// Compiles what `extended_program` recorded: rates, further functions, and what presence is judged by.
+fn compiled(
+    model: &Model,
+    parameters: &[Rational],
+    loose: &[Loose],
+    more: usize,
+    graph: &Graph,
+    (rates, mut outputs, written): (Vec<Expr>, Vec<Expr>, Written),
+) -> Result<TaylorProgram, FlowError> {
+    let dimension = model.dimension();
     if graph.inputs() > dimension + more {
         return Err(FlowError::Antiderivative);
     }
-    let jumps = jumps(&graph, &rates[..dimension]);
+    let jumps = jumps(graph, &rates[..dimension]);
     if jumps && more > loose.len() {
         return Err(FlowError::Jumps);
     }
     let field = [rates.as_slice(), &outputs].concat();
-    let (presence, arguments) = Presence::new(model, &graph, &field, written);
+    let (presence, arguments) = Presence::new(model, graph, &field, written);
     outputs.extend(arguments);
     let mut program = match model.system.conserves_level() {
-        false => TaylorProgram::compile(&graph, &rates, &outputs)?,
+        false => TaylorProgram::compile(graph, &rates, &outputs)?,
         true => {
             let wanted = [rates.as_slice(), &outputs].concat();
-            let (simpler, mut values) = merged(model, &graph, &wanted)?;
+            let (simpler, mut values) = merged(model, graph, &wanted)?;
             let outputs = values.split_off(rates.len());
             TaylorProgram::compile(&simpler, &values, &outputs)?
         }

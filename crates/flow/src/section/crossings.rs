@@ -213,7 +213,8 @@ impl<'w, T: SeriesNumber<One = f64>, P: Send, L: FnMut(DoubleDouble, &[DoubleDou
                 running.track.is_close = reach <= ROUNDINGS * doubt();
             }
             let sides = &mut running.sides;
-            for event in sides.events_up_to_turn(&polynomial, piece.length(), doubt, ends_at_turn) {
+            for event in sides.events_up_to_turn(&polynomial, piece.length(), &doubt, ends_at_turn)
+            {
                 if running.meet(event, &piece, self.task, steps, &mut self.observe) {
                     return true;
                 }

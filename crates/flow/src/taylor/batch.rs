@@ -6,6 +6,8 @@
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use liouville::order::StableOrder;
+
 use crate::halt::Halt;
 
 /// Number of motions in the lanes of one thread.
@@ -79,6 +81,6 @@ fn collected<R: Send>(threads: usize, work: &(dyn Fn() -> Vec<(usize, R)> + Sync
             done.into_inner().unwrap_or_else(|poisoned| poisoned.into_inner())
         }
     };
-    done.sort_by_key(|(index, _)| *index);
+    done.order_by_key(|(index, _)| *index);
     done.into_iter().map(|(_, result)| result).collect()
 }

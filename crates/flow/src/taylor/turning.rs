@@ -185,7 +185,7 @@ impl<T: SeriesNumber> Stepper<T> {
                     }
                     Event::Tangency { .. } => None,
                 };
-                let after = sides.events(&argument, step, error).into_iter().find_map(crossing);
+                let after = sides.events(&argument, step, &error).into_iter().find_map(crossing);
                 let is_first = |after: &T::One| match lane.edge {
                     Some((_, other)) => after.leading().abs() < other.leading().abs(),
                     None => true,

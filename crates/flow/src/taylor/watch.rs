@@ -100,7 +100,7 @@ impl Domain {
             Event::Tangency { after } | Event::Crossing { after, .. } => Some(after),
         };
         let mut sides = Sides::on(first >= 0.0);
-        sides.events(argument, length, || 0.0).into_iter().find_map(ends)
+        sides.events(argument, length, &|| 0.0).into_iter().find_map(ends)
     }
 }
 

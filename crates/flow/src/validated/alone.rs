@@ -9,6 +9,8 @@
 //! orbits with other values of the energy or of an integral count, too: there is one for each of the values that
 //! states in the first box have, and its period is bounded.
 
+use liouville::order::StableOrder;
+
 use super::course::Course;
 use super::division::DIVISIONS;
 use super::enclosure::{Enclosure, raised};
@@ -82,7 +84,7 @@ pub fn is_alone(
         let sides = WIDER.iter().map(|wider| wider * reach);
         let sides = sides.chain(WIDE.iter().map(|share| share * speed * late));
         let mut sides: Vec<f64> = sides.filter(|side| *side >= reach).collect();
-        sides.sort_by(f64::total_cmp);
+        sides.order_by(f64::total_cmp);
         let period = offsets.len() - 1;
         let mut alone = false;
         for side in sides {

@@ -2,6 +2,8 @@
 //!
 //! Nothing that is proved rests on their accuracy.
 
+use liouville::order::StableOrder;
+
 /// Inverts a square matrix given by its columns, each a list of rows and entries: Gaussian
 /// elimination with the largest pivot, inside the band. Row by row; `None` where a pivot is 0 or
 /// not finite.
@@ -17,7 +19,7 @@ pub fn inverse(columns: &[Vec<(usize, f64)>]) -> Option<Vec<f64>> {
         }
     }
     let mut order: Vec<usize> = (0..size).collect();
-    order.sort_by_key(|row| first[*row]);
+    order.order_by_key(|row| first[*row]);
     let mut place = vec![0; size];
     order.iter().enumerate().for_each(|(index, row)| place[*row] = index);
     let mut matrix = vec![0.0; size * size];

@@ -21,6 +21,7 @@ use crate::motion::start::Start;
 use liouville::mechanics::Model;
 use liouville::number::double_double::DoubleDouble;
 use liouville::number::rational::Rational;
+use liouville::order::StableOrder;
 
 /// Limit on the steps of a motion.
 pub const MOST_STEPS: usize = 100_000;
@@ -256,7 +257,7 @@ fn frame(images: &[Boxed], radii: &[f64]) -> Vec<Vec<f64>> {
         .zip(radii)
         .map(|(image, r)| (norm(&middle(image)) * r, middle(image)))
         .collect();
-    columns.sort_by(|a, b| b.0.total_cmp(&a.0));
+    columns.order_by(|a, b| b.0.total_cmp(&a.0));
     let axes = (0..n).map(|k| (0..n).map(|j| if j == k { 1.0 } else { 0.0 }).collect());
     let mut units: Vec<Vec<f64>> = Vec::new();
     for vector in columns.into_iter().map(|(_, vector)| vector).chain(axes) {

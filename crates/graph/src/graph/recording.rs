@@ -15,10 +15,9 @@ thread_local! {
 /// Recordings may be nested; each has its own graph. Fails if a recorded value was used in an
 /// operation that needs a magnitude or an order, or in another recording.
 pub fn record<R>(inputs: usize, build: impl FnOnce(&[Expr]) -> R) -> Result<(Graph, R), Fault> {
-    recorded(Graph::begin, || {
-        let handles: Vec<Expr> = (0..inputs).map(|_| Expr::input()).collect();
-        build(&handles)
-    })
+    let (recording, handles) = Recording::of_inputs(inputs);
+    let result = build(&handles);
+    Ok((recording.finish()?, result))
 }
 
 /// Records further values of a graph, from its inputs and its own values, in a copy of it: `build` gets
@@ -27,33 +26,11 @@ pub fn record_further<R>(
     graph: &Graph,
     build: impl FnOnce(&[Expr], &dyn Fn(Expr) -> Expr) -> R,
 ) -> Result<(Graph, R), Fault> {
-    recorded(
-        |session| graph.copy(session),
-        || {
-            let input = |input: u32| Expr::made(|graph| graph.intern(Node::Input(input)));
-            let handles: Vec<Expr> = (0..graph.inputs).map(input).collect();
-            let session = with_graph(|graph| graph.session);
-            build(&handles, &|value| Expr::of(session, NodeId(graph.place(value) as u32)))
-        },
-    )
-}
-
-/// Records from a graph of a new session on.
-fn recorded<R>(
-    begin: impl FnOnce(u32) -> Graph,
-    build: impl FnOnce() -> R,
-) -> Result<(Graph, R), Fault> {
-    let session = SESSIONS.with_borrow_mut(|last| {
-        *last = last.wrapping_add(1).max(1);
-        *last
-    });
-    let mut outer = Restore(Some(RECORDING.replace(begin(session))));
-    let result = build();
-    let mut graph = outer.finish().unwrap_or_else(|| Graph::begin(session));
-    match graph.fault.take() {
-        Some(fault) => Err(fault),
-        None => Ok((graph, result)),
-    }
+    let (recording, handles) = Recording::of_copy(graph);
+    let session = recording.session;
+    let place = |value| Expr::of(session, NodeId(graph.place(value) as u32));
+    let result = build(&handles, &place);
+    Ok((recording.finish()?, result))
 }
 
 /// Runs `build` without folding away any operation on recorded values that may be undefined, so
@@ -85,18 +62,59 @@ pub fn is_recorded_literally() -> bool {
 }
 
 /// A guard that puts the outer recording back, also when the closure unwinds.
-struct Restore(Option<Graph>);
+///
+/// None of its functions depends on what is recorded: each is compiled once, not for each closure.
+struct Recording {
+    session: u32,
+    outer: Option<Graph>,
+}
 
-impl Restore {
-    fn finish(&mut self) -> Option<Graph> {
-        self.0.take().map(|outer| RECORDING.replace(outer))
+impl Recording {
+    /// Begins an empty graph with free inputs.
+    fn of_inputs(inputs: usize) -> (Self, Vec<Expr>) {
+        let session = next_session();
+        let recording = Self::begin(Graph::begin(session));
+        (recording, (0..inputs).map(|_| Expr::input()).collect())
+    }
+
+    /// Begins with a copy of a graph.
+    fn of_copy(graph: &Graph) -> (Self, Vec<Expr>) {
+        let session = next_session();
+        let recording = Self::begin(graph.copy(session));
+        let input = |input: u32| Expr::made(|graph| graph.intern(Node::Input(input)));
+        (recording, (0..graph.inputs).map(input).collect())
+    }
+
+    fn begin(graph: Graph) -> Self {
+        Self { session: graph.session, outer: Some(RECORDING.replace(graph)) }
+    }
+
+    fn finish(mut self) -> Result<Graph, Fault> {
+        let mut graph = self.restore().unwrap_or_else(|| Graph::begin(self.session));
+        match graph.fault.take() {
+            Some(fault) => Err(fault),
+            None => Ok(graph),
+        }
+    }
+
+    fn restore(&mut self) -> Option<Graph> {
+        self.outer.take().map(|outer| RECORDING.replace(outer))
     }
 }
 
-impl Drop for Restore {
+impl Drop for Recording {
+    #[inline(never)]
     fn drop(&mut self) {
-        self.finish();
+        self.restore();
     }
+}
+
+/// The number of a new session, which is not 0.
+fn next_session() -> u32 {
+    SESSIONS.with_borrow_mut(|last| {
+        *last = last.wrapping_add(1).max(1);
+        *last
+    })
 }
 
 #[inline]

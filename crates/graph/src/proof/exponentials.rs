@@ -6,6 +6,7 @@ use num_integer::Integer;
 use crate::graph::{Expr, Graph, Step};
 use crate::number::UnaryFunction;
 use crate::number::rational::Rational;
+use crate::order::StableOrder;
 
 use super::polynomial::{Fraction, Polynomial, fraction};
 
@@ -85,7 +86,7 @@ impl Exponentials {
         }
         // Exponents of few terms come first, and are kept.
         let mut order: Vec<usize> = (0..places.len()).collect();
-        order.sort_by_key(|index| (exponents[*index].size(), *index));
+        order.order_by_key(|index| (exponents[*index].size(), *index));
         let places: Vec<usize> = order.iter().map(|index| places[*index]).collect();
         let exponents: Vec<Polynomial> =
             order.iter().map(|index| exponents[*index].clone()).collect();

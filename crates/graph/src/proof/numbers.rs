@@ -9,6 +9,7 @@ use num_integer::Integer;
 use num_traits::{One, Signed, Zero};
 
 use crate::number::rational::Rational;
+use crate::order::StableOrder;
 
 /// Largest number of integers that are refined against each other.
 const MOST_INTEGERS: usize = 64;
@@ -26,7 +27,7 @@ impl Numbers {
     pub fn of<'c>(constants: impl Iterator<Item = &'c Rational>) -> Self {
         let mut base: Vec<BigInt> = Vec::new();
         let mut open: Vec<BigInt> = constants.filter_map(parts).flatten().collect();
-        open.sort();
+        open.order();
         open.dedup();
         while let Some(n) = open.pop() {
             if n.is_one() || base.contains(&n) {
@@ -49,7 +50,7 @@ impl Numbers {
                 *n = root;
             }
         }
-        base.sort();
+        base.order();
         Self { base }
     }
 

@@ -3,6 +3,7 @@
 use crate::graph::{Graph, Step};
 use crate::number::UnaryFunction;
 use crate::number::rational::Rational;
+use crate::order::StableOrder;
 
 use super::alike::{Side, arguments, increasing};
 use super::collected::{ReadValue, read_with, text};
@@ -112,7 +113,7 @@ impl Seen {
             sides.push((value.clone(), side));
         }
         // The first is a function; a number is written as one.
-        sides.sort_by_key(|(_, side)| matches!(side, Side::Number(_)));
+        sides.order_by_key(|(_, side)| matches!(side, Side::Number(_)));
         let zero = || Side::Number(Rational::from(0));
         let (share, above, below) = match sides.as_slice() {
             [(share, own)] => (share.clone(), own.clone(), zero()),

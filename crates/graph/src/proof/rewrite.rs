@@ -5,6 +5,7 @@ use rustc_hash::FxHashMap;
 use crate::graph::{Expr, Graph, Step};
 use crate::number::rational::Rational;
 use crate::number::{BinaryOperation, UnaryFunction};
+use crate::order::StableOrder;
 use crate::scalar::Scalar;
 
 use super::angles::Angle;
@@ -271,7 +272,7 @@ fn split(
         }
     }
     let mut roots: Vec<(usize, Rational)> = roots.into_iter().collect();
-    roots.sort_by_key(|(place, _)| *place);
+    roots.order_by_key(|(place, _)| *place);
     let mut product = rest.power(exponent);
     for (place, root) in roots {
         product *= values[place]?.power(&(&root * exponent));

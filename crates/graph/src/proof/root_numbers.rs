@@ -11,6 +11,7 @@ use num_traits::{One, Signed, Zero};
 use crate::graph::{Graph, Step};
 use crate::number::rational::Rational;
 use crate::number::{BinaryOperation, UnaryFunction};
+use crate::order::StableOrder;
 
 /// Primes whose roots [`ProofRng::prime_for`](super::ProofRng::prime_for) provides anyway.
 pub const SMALL_PRIMES: [u64; 15] = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47];
@@ -37,7 +38,7 @@ pub fn root_numbers(graph: &Graph) -> Vec<Rational> {
         let (above, below) = value.parts();
         found.extend([above, below].into_iter().flat_map(|part| large_factors(part.abs())));
     }
-    found.sort();
+    found.order();
     found.dedup();
     found.truncate(MOST);
     found.insert(0, BigInt::from(SMALL_PRIMES[0]));

@@ -3,6 +3,7 @@
 use crate::graph::{Expr, Fault, Graph, Step};
 use crate::number::UnaryFunction;
 use crate::number::rational::Rational;
+use crate::order::StableOrder;
 use crate::scalar::Scalar;
 
 use super::digest::SeedDigest;
@@ -113,7 +114,7 @@ impl RootFinder<'_> {
         let others = independent.iter().rev().copied().filter(|index| !is_nested(index));
         let candidates: Vec<usize> = nested.chain(others.take(MOST_FACTORS)).collect();
         let mut subsets: Vec<u32> = (0..1 << candidates.len()).collect();
-        subsets.sort_by_key(|subset| subset.count_ones());
+        subsets.order_by_key(|subset| subset.count_ones());
         subsets.truncate(MOST_SETS);
         let chosen = |subset: u32| {
             let members = candidates.iter().enumerate().filter(|(k, _)| subset >> k & 1 == 1);

@@ -14,6 +14,7 @@ use liouville::case::Case;
 use liouville::claim::{Claim, ClaimKind, Integral};
 use liouville::formula::{Formula, Type};
 use liouville::mechanics::Draw;
+use liouville::order::StableOrder;
 use liouville::verdict::{ClaimReport, Verdict};
 
 /// Largest number of products that are counted.
@@ -149,7 +150,7 @@ impl ProvedIntegrals {
                 .is_some_and(|report| report.verdict == Verdict::Proved),
         };
         let mut claimed: Vec<&Formula> = self.claimed().iter().collect();
-        claimed.sort_by_key(|own| own.text().chars().count());
+        claimed.order_by_key(|own| own.text().chars().count());
         for own in claimed {
             match compared(case, &basis, own, effort)?.map(|report| report.verdict) {
                 Some(Verdict::Proved) => {

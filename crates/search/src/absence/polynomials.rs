@@ -23,6 +23,7 @@ use liouville::formula::{Formula, FormulaError};
 use liouville::graph::Expr;
 use liouville::mechanics::calculus::DualPoint;
 use liouville::number::rational::Rational;
+use liouville::order::StableOrder;
 use liouville::scalar::Scalar;
 use liouville::verdict::Verdict;
 
@@ -55,7 +56,7 @@ pub fn judge(
         ));
     }
     let mut monomials = variables.monomials(0, 0..=degree);
-    monomials.sort_by_key(|own| own.iter().sum::<u32>());
+    monomials.order_by_key(|own| own.iter().sum::<u32>());
     let counting = Counting::new(asked, variables, degree, monomials)?;
     let Some(counting) = counting else { return Ok(None) };
     match counted {

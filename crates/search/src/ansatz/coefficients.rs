@@ -18,6 +18,7 @@ use super::system::{LinearSystem, PrimePoint};
 use super::{Coordinates, TENSOR};
 use fitted::{Fitted, PointPowers};
 use liouville::formula::{Formula, FormulaError, FormulaResult};
+use liouville::order::StableOrder;
 use liouville::proof::reconstruct;
 pub use numbers::has_products;
 use numbers::{Number, Roots, numbers};
@@ -314,7 +315,7 @@ impl VectorSamples<'_> {
             .map(|(above, below)| (linear(plain, roots, above) + count(plain, below), above, below))
             .filter(|(unknowns, ..)| *unknowns <= MOST_COEFFICIENTS)
             .collect();
-        trials.sort();
+        trials.order();
         for (unknowns, above, below) in trials {
             self.extend(unknowns + SPARE_SAMPLES)?;
             let m = self.known[0].0.modulus;

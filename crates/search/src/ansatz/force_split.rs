@@ -21,6 +21,7 @@ use liouville::mechanics::{
 };
 use liouville::number::prime::{Prime, UNDEFINED};
 use liouville::number::rational::Rational;
+use liouville::order::StableOrder;
 use liouville::proof::{root_numbers, statement_seed};
 
 /// Largest number of variables of which all sets are tried.
@@ -144,7 +145,7 @@ fn sets(count: usize, may: impl Fn(usize) -> bool) -> Option<Vec<Vec<usize>>> {
                 chosen.map(|k| allowed[k]).collect()
             })
             .collect();
-        all.sort();
+        all.order();
         all
     })
 }
@@ -164,7 +165,7 @@ fn driven(case: &Case, effort: &Effort) -> Result<Result<Vec<usize>, &'static st
     let size = |set: &Vec<usize>| set.iter().map(|k| model.state[*k].len()).sum::<usize>();
     let mut all: Vec<&Vec<usize>> =
         sets.iter().filter(|set| set.len() < model.state.len()).collect();
-    all.sort_by_key(|set| std::cmp::Reverse(size(set)));
+    all.order_by_key(|set| std::cmp::Reverse(size(set)));
     let found = all.into_iter().find_map(|set| {
         let own = components(model, |index| set.contains(&index));
         rates.are_linear(&own).then_some(own)

@@ -31,6 +31,7 @@ use crate::origin::{RemarkOrigin, TheoremOrigin};
 use liouville::case::Case;
 use liouville::formula::{Formula, FormulaError, FormulaResult};
 use liouville::mechanics::Draw;
+use liouville::order::StableOrder;
 
 /// Largest number of directions that are written out.
 const LISTED: usize = 8;
@@ -201,7 +202,7 @@ impl GyroSearch<'_> {
         };
         let mut found: Vec<Vec<usize>> = vectors.iter().map(support).collect();
         found.retain(|own| own.last().is_some_and(|last| *last >= first));
-        found.sort_by_key(Vec::len);
+        found.order_by_key(Vec::len);
         Ok(Some(found))
     }
 

@@ -23,6 +23,7 @@ use liouville::case::Case;
 use liouville::claim::Claim;
 use liouville::formula::{Formula, FormulaError};
 use liouville::mechanics::{Model, System as Motion};
+use liouville::order::StableOrder;
 use liouville::verdict::Verdict;
 
 /// Increment of the degree in the positions.
@@ -150,7 +151,7 @@ impl IntegralSearch<'_> {
             .flat_map(|degree| variables.monomials(degree, 0..=positions))
             .collect();
         // The last columns are the free ones: of high degree, so that the others have low degree.
-        exponents.sort_by_key(|own| own.iter().sum::<u32>());
+        exponents.order_by_key(|own| own.iter().sum::<u32>());
         let product = |exponents| Column::Product { derivation: 0, factor: 0, exponents };
         system.columns = exponents.into_iter().map(product).collect();
         let blocks = SignChanges::of(case, variables, &over, seed)?.blocks(&system.columns);
@@ -172,7 +173,7 @@ impl IntegralSearch<'_> {
                 full
             }));
         }
-        found.sort_by_key(|vector| vector.iter().rposition(|entry| *entry != 0));
+        found.order_by_key(|vector| vector.iter().rposition(|entry| *entry != 0));
         let (degree, mixed) = self.exponents(positions);
         let products: Vec<Vec<usize>> = generators
             .exponents(degree, mixed)

@@ -23,6 +23,7 @@ use liouville::case::Case;
 use liouville::claim::Claim;
 use liouville::formula::{Formula, FormulaError};
 use liouville::mechanics::Draw;
+use liouville::order::StableOrder;
 use liouville::verdict::ClaimReport;
 
 /// Largest number of products of integrals of degree 1.
@@ -144,7 +145,7 @@ impl ForceSearch<'_> {
         // Polynomials come first, and what has no gain: members of a family are left out then.
         let is_fraction = |column: &usize| matches!(&system.columns[*column], Column::Product { factor, .. } if *factor > 0);
         let has_gain = |support: &Vec<usize>| support.first().is_some_and(|own| *own < first);
-        supports.sort_by_key(|own| (has_gain(own), own.iter().any(is_fraction), own.len()));
+        supports.order_by_key(|own| (has_gain(own), own.iter().any(is_fraction), own.len()));
         let (free, gaining): (Vec<_>, Vec<_>) =
             supports.into_iter().partition(|own| !has_gain(own));
         let mut found = Vec::new();

@@ -19,7 +19,7 @@ use crate::streams::SearchStream;
 use liouville::case::Case;
 use liouville::claim::LevelSubset;
 use liouville::formula::Formula;
-use liouville::graph::{Evaluator, Expr, Tape};
+use liouville::graph::{Evaluator, Expr, Graph, Tape};
 use liouville::mechanics::Draw;
 use liouville::mechanics::calculus::DualPoint;
 use liouville::number::GOLDEN;
@@ -116,22 +116,34 @@ impl LinearSystem {
         has_symbols: bool,
         make: impl FnOnce(&DualPoint<'_, Expr>, &mut Recording),
     ) -> Result<Self, SearchError> {
-        let seed = effort.options.seed;
-        let Coordinates { names, radicands } = Coordinates::of(case)?;
-        let (graph, (recording, own)) = recorded(case, |jet| {
+        let coordinates = Coordinates::of(case)?;
+        let (graph, recorded) = recorded(case, |jet| {
             let mut recording = Recording::default();
             make(jet, &mut recording);
             let own = recording.outputs.len();
-            let values = names.iter().map(|term| jet.phase.scalar(term));
+            let values = coordinates.names.iter().map(|term| jet.phase.scalar(term));
             recording.outputs.extend(values);
             (recording, own)
         })?;
+        Self::compiled(case, effort, has_symbols, coordinates, &graph, recorded)
+    }
+
+    /// Makes the equations of what was recorded; `own` outputs come before the coordinates.
+    fn compiled(
+        case: &Case,
+        effort: &Effort,
+        has_symbols: bool,
+        Coordinates { names, radicands }: Coordinates,
+        graph: &Graph,
+        (recording, own): (Recording, usize),
+    ) -> Result<Self, SearchError> {
+        let seed = effort.options.seed;
         let sampler = Sampler::new(case, &LevelSubset::level(&case.model), seed)?;
         if sampler.is_numerical() {
             return Err(SearchError::NoChart);
         }
         let fixed = vec![None; sampler.recipes().len()];
-        let (graph, outputs) = sampler.compose(&graph, &[recording.outputs], &fixed)?;
+        let (graph, outputs) = sampler.compose(graph, &[recording.outputs], &fixed)?;
         let (graph, outputs) = match has_symbols.then(|| symbolised(&graph, &outputs)).flatten() {
             Some(made) => made,
             None => (graph, outputs),

@@ -3,6 +3,7 @@
 use rustc_hash::FxHashMap;
 
 use liouville::number::prime::{Modulus, Polynomial, PrimePolynomials};
+use liouville::order::StableOrder;
 
 use super::hypersurface::PrimeTerms;
 use super::ideal::degree;
@@ -222,7 +223,7 @@ impl BoundedIdeal {
         };
         let mut basis: Vec<PrimeTerms> = found.iter().map(terms).collect();
         // By the first variable that a leading monomial contains.
-        basis.sort_by(|a, b| degree(a).cmp(&degree(b)).then_with(|| b[0].0.cmp(&a[0].0)));
+        basis.order_by(|a, b| degree(a).cmp(&degree(b)).then_with(|| b[0].0.cmp(&a[0].0)));
         basis
     }
 }

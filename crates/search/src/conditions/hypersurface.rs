@@ -5,6 +5,7 @@ use num_bigint::BigInt;
 use liouville::formula::{Formula, FormulaError, FormulaResult};
 use liouville::number::prime::{Modulus, Polynomial, PrimePolynomials};
 use liouville::number::rational::Rational;
+use liouville::order::StableOrder;
 use liouville::proof::reconstruct;
 
 use super::real::Terms;
@@ -32,7 +33,7 @@ impl Hypersurface {
     pub fn of(images: &PrimeTerms, m: &Modulus) -> Option<Self> {
         let used = images.iter().filter(|(_, image)| *image != 0);
         let mut images: PrimeTerms = used.cloned().collect();
-        images.sort_by(|(a, _), (b, _)| {
+        images.order_by(|(a, _), (b, _)| {
             let degree = |own: &[u32]| own.iter().sum::<u32>();
             degree(b).cmp(&degree(a)).then_with(|| b.cmp(a))
         });
@@ -49,7 +50,7 @@ impl Hypersurface {
     /// Makes a polynomial of terms that are each there once; `None` if it is constant.
     pub fn from_terms(mut terms: Terms) -> Option<Self> {
         terms.retain(|(_, value)| !value.is_zero());
-        terms.sort_by(|(a, _), (b, _)| degree(b).cmp(&degree(a)).then_with(|| b.cmp(a)));
+        terms.order_by(|(a, _), (b, _)| degree(b).cmp(&degree(a)).then_with(|| b.cmp(a)));
         (degree(&terms.first()?.0) > 0).then_some(Self { terms })
     }
 
@@ -193,7 +194,7 @@ impl Hypersurface {
             }
         }
         terms.retain(|(_, value)| !value.is_zero());
-        terms.sort_by(|(a, _), (b, _)| degree(b).cmp(&degree(a)).then_with(|| b.cmp(a)));
+        terms.order_by(|(a, _), (b, _)| degree(b).cmp(&degree(a)).then_with(|| b.cmp(a)));
         (!terms.is_empty()).then_some(Self { terms })
     }
 

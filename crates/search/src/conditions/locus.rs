@@ -9,6 +9,7 @@
 use std::ops::RangeInclusive;
 
 use liouville::number::prime::{Polynomial, PrimePolynomials};
+use liouville::order::StableOrder;
 
 use super::equations::ParametricEquations;
 use super::factors::{Bivariate, bivariate_factors, irreducible, lifted};
@@ -109,7 +110,7 @@ fn found(
             found.unexplained = found.unexplained.saturating_sub(own.degree());
         }
     }
-    found.surfaces.sort_by_key(Hypersurface::degree);
+    found.surfaces.order_by_key(Hypersurface::degree);
     Ok(Ok(found))
 }
 

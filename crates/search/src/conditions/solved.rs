@@ -3,6 +3,7 @@
 use liouville::case::PlacedClaim;
 use liouville::formula::{Formula, FormulaError};
 use liouville::number::rational::Rational;
+use liouville::order::StableOrder;
 use liouville::verdict::{Verdict, judge};
 
 use super::hypersurface::Hypersurface;
@@ -30,7 +31,7 @@ pub fn with_equations(split: &SplitCase, equations: &[Hypersurface]) -> Option<V
     let uses = (0..letters.len()).map(|place| vec![place]).collect();
     let mut all = vec![SolvedScalars { letters, uses, solved: Vec::new() }];
     let mut left: Vec<&Hypersurface> = equations.iter().collect();
-    left.sort_by_key(|own| (own.univariate().is_none(), own.degree()));
+    left.order_by_key(|own| (own.univariate().is_none(), own.degree()));
     for own in left {
         let next: Option<Vec<Vec<SolvedScalars>>> =
             all.into_iter().map(|known| known.with(own).ok().flatten()).collect();

@@ -19,6 +19,7 @@ use liouville::mechanics::elimination::solve_by_minors;
 use liouville::mechanics::{Draw, Lagrangian, Model, Phase, VariableRole};
 use liouville::number::prime::{Prime, UNDEFINED};
 use liouville::number::rational::Rational;
+use liouville::order::StableOrder;
 use liouville::proof::root_numbers;
 use liouville::scalar::Scalar;
 
@@ -289,7 +290,7 @@ impl Slopes {
         let count = self.columns.first().map_or(0, Vec::len);
         let mut has_values = false;
         let mut order: Vec<usize> = (0..self.columns.len()).collect();
-        order.sort_by_key(|column| {
+        order.order_by_key(|column| {
             let varies = |slope: &&Expr| self.graph.constant_value(**slope).is_none();
             self.columns[*column].iter().filter(varies).count()
         });

@@ -4,6 +4,7 @@
 
 use liouville::case::Case;
 use liouville::graph::Expr;
+use liouville::order::StableOrder;
 
 use super::super::SearchError;
 use super::super::terms::recorded;
@@ -45,6 +46,6 @@ pub fn closed(case: &Case) -> Result<Vec<Vec<usize>>, SearchError> {
             sets.push(set);
         }
     }
-    sets.sort_by_key(Vec::len);
+    sets.order_by_key(Vec::len);
     Ok(sets)
 }

@@ -8,6 +8,7 @@
 use liouville::case::Case;
 use liouville::claim::Claim;
 use liouville::formula::Formula;
+use liouville::order::StableOrder;
 use liouville::verdict::Verdict;
 
 use super::super::absence::rank;
@@ -97,7 +98,7 @@ pub fn close(case: &Case, effort: &Effort, report: &mut SearchReport) -> Result<
         }
     }
     // Products of those of low degree are not new.
-    closure.all.sort_by_key(|own| own.degree);
+    closure.all.order_by_key(|own| own.degree);
     let (mut next, mut tried, mut told) = (0, 0, 0);
     while next < closure.all.len() && told < MOST_FURTHER {
         let candidates = closure.candidates(next, &symmetries);
@@ -166,7 +167,7 @@ impl Closure<'_, '_> {
         let is_short = |own: &Candidate| own.polynomial.terms().count() <= MOST_TERMS[0];
         let all = self.all[..place].iter().filter_map(bracket).chain(derived);
         let mut all: Vec<Candidate> = all.filter(is_short).collect();
-        all.sort_by_key(|own| self.algebra.degree(&own.polynomial));
+        all.order_by_key(|own| self.algebra.degree(&own.polynomial));
         all
     }
 

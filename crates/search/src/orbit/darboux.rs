@@ -6,6 +6,7 @@ use rustc_hash::FxHashMap;
 use liouville::formula::{Formula, FormulaError};
 use liouville::number::prime::Modulus;
 use liouville::number::rational::Rational;
+use liouville::order::StableOrder;
 use liouville::proof::reconstruct;
 
 use super::super::ansatz::monomials::power_product;
@@ -149,7 +150,7 @@ impl DarbouxSearch<'_, '_> {
             };
             vectors.extend(shared);
         }
-        vectors.sort();
+        vectors.order();
         vectors.dedup();
         vectors.truncate(MOST_CANDIDATES);
         let terms = |vector: Vec<u64>| {
@@ -256,7 +257,7 @@ impl DarbouxSearch<'_, '_> {
             }
             monomials = next;
         }
-        monomials.sort_by_key(|own| (own.iter().sum::<u32>(), std::cmp::Reverse(own.clone())));
+        monomials.order_by_key(|own| (own.iter().sum::<u32>(), std::cmp::Reverse(own.clone())));
         let make = |at: &PrimePoint| {
             let candidates = self.candidates(at, support, factors).ok()?.0;
             let full: Vec<Terms> =

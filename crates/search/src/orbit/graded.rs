@@ -11,6 +11,8 @@ use std::time::Duration;
 
 use rayon::prelude::*;
 
+use liouville::order::StableOrder;
+
 use super::super::ansatz::coefficients::NullVector;
 use super::super::ansatz::note_unwritten;
 use super::super::ansatz::system::{Column, LinearSystem, PrimePoint};
@@ -113,7 +115,7 @@ impl<'s, 'c> GradedSearch<'s, 'c> {
             places.last().is_some_and(|last| all[*last].iter().sum::<u32>() == degree)
         };
         let mut classes: Vec<Vec<usize>> = classes.into_values().filter(is_new).collect();
-        classes.sort_by_key(Vec::len);
+        classes.order_by_key(Vec::len);
         let times = if setting.is_on_level() { 2.0 } else { 1.0 };
         let cost: f64 = classes.iter().map(|own| times * (own.len() as f64).powi(3) / 2.0).sum();
         if cost > steps || classes.iter().any(|own| own.len() > WIDEST) {
@@ -162,7 +164,7 @@ impl<'s, 'c> GradedSearch<'s, 'c> {
                 candidates.push(used.map(|k| (columns[k], vector[k])).unzip());
             }
         }
-        candidates.sort_by_key(|(support, _)| support.len());
+        candidates.order_by_key(|(support, _)| support.len());
         let Some((point, mut gradients)) = known.gradients(setting, at)? else { return Ok(()) };
         let gradient = |(support, values): &(Vec<usize>, Vec<u64>)| {
             let own: Vec<Vec<u32>> = support.iter().map(|k| all[*k].clone()).collect();

@@ -6,6 +6,7 @@
 //! function of q has to be known. Elsewhere a coefficient c(q) is interpolated: A(q) − c(q) B(q) = 0
 //! at random q.
 
+use liouville::order::StableOrder;
 use liouville::proof::reduce;
 
 use super::super::ansatz::note_unwritten;
@@ -81,7 +82,7 @@ impl RationalSearch<'_, '_> {
         report: &mut SearchReport,
     ) -> Result<(), SearchError> {
         let mut monomials = self.monomials.to_vec();
-        monomials.sort_by_key(|own| (own.iter().sum::<u32>(), own.clone()));
+        monomials.order_by_key(|own| (own.iter().sum::<u32>(), own.clone()));
         if let Some(relations) = self.setting.relations(at, 0, &monomials)? {
             let other = RationalSearch { monomials: &monomials, ..*self };
             other.search(at, &relations, wanted, known, report)?;

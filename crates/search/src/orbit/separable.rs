@@ -6,6 +6,7 @@
 use crate::echelon::nonzero;
 use liouville::formula::Formula;
 use liouville::mechanics::{BracketBlock, System};
+use liouville::order::StableOrder;
 
 use super::super::ansatz::coefficients::{NullVector, Ratio};
 use super::super::ansatz::note_unwritten;
@@ -54,7 +55,7 @@ pub fn search(
             found.extend(search.integrals(&given, report)?);
         }
         // One of them, as the coordinates give it in several forms.
-        found.sort_by_key(|[own, _]| own.text().chars().count());
+        found.order_by_key(|[own, _]| own.text().chars().count());
         let mut is_new = false;
         for own in found {
             if tell_if_proved(setting, origin, &own, known, report)? {

@@ -7,6 +7,7 @@
 
 use liouville::formula::Formula;
 use liouville::number::rational::Rational;
+use liouville::order::StableOrder;
 use liouville::proof::reconstruct;
 
 use super::super::ansatz::coefficients::Vectors;
@@ -69,7 +70,7 @@ fn ordered(at: &PrimePoint, support: &[Vec<u32>], candidates: Vec<Terms>) -> Vec
             Some((fractions(&own)?, own.into_iter().map(|(_, entry)| entry).collect()))
         })
         .collect();
-    all.sort_by(|(a, _), (b, _)| a.cmp(b));
+    all.order_by(|(a, _), (b, _)| a.cmp(b));
     all.into_iter().map(|(_, own)| own).collect()
 }
 

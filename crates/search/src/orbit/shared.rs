@@ -1,5 +1,7 @@
 //! Relations that the special points of several lines share.
 
+use liouville::order::StableOrder;
+
 use super::super::SearchError;
 use super::super::ansatz::system::PrimePoint;
 use super::super::echelon::Echelon;
@@ -44,7 +46,7 @@ impl DarbouxSearch<'_, '_> {
                 }
             }
             // Those that share most are on one f.
-            next.sort_by_key(Echelon::rank);
+            next.order_by_key(Echelon::rank);
             next.truncate(MOST_CANDIDATES);
             open = next;
             if open.is_empty() {

@@ -1,6 +1,7 @@
 //! Combinations of vectors with few entries.
 
 use liouville::number::prime::Modulus;
+use liouville::order::StableOrder;
 
 /// Largest number of vectors that are combined.
 const MOST: usize = 40;
@@ -29,7 +30,7 @@ pub fn sparse(m: &Modulus, mut vectors: Vec<Vec<u64>>) -> Vec<Vec<u64>> {
             }
         }
     }
-    vectors.sort_by_key(|own| entries(own));
+    vectors.order_by_key(|own| entries(own));
     vectors
 }
 

@@ -8,6 +8,8 @@ use num_bigint::BigInt;
 use num_integer::Integer;
 use num_traits::{One, Signed, Zero};
 
+use liouville::order::StableOrder;
+
 use super::super::ansatz::coefficients::Polynomial;
 
 /// Largest number of terms of a square root.
@@ -88,7 +90,7 @@ pub fn without_common(all: Vec<Polynomial>, further: &[Polynomial]) -> Vec<Polyn
     let mut candidates: Vec<Sparse> = all.iter().map(bare).collect();
     candidates.extend(further.iter().map(|own| bare(&sparse(own))));
     candidates.retain(|own| own.len() > 1);
-    candidates.sort_by_key(BTreeMap::len);
+    candidates.order_by_key(BTreeMap::len);
     for candidate in candidates {
         while let Some(made) =
             all.iter().map(|own| divided(own, &candidate)).collect::<Option<Vec<_>>>()
@@ -107,7 +109,7 @@ fn sparse(own: &Polynomial) -> Sparse {
 fn sorted(own: &Sparse) -> Polynomial {
     let mut terms: Polynomial =
         own.iter().rev().map(|(a, value)| (a.clone(), value.clone())).collect();
-    terms.sort_by_key(|(exponents, _)| exponents.iter().sum::<u32>());
+    terms.order_by_key(|(exponents, _)| exponents.iter().sum::<u32>());
     terms
 }
 

@@ -2,6 +2,8 @@
 
 use toml::de::{DeTable, DeValue};
 
+use liouville::order::StableOrder;
+
 /// Returns the string of a key.
 pub fn word(table: &DeTable<'_>, key: &str) -> Option<String> {
     match table.get(key)?.get_ref() {
@@ -45,7 +47,7 @@ pub fn pairs(table: &DeTable<'_>, key: &str) -> Vec<(String, String)> {
         return Vec::new();
     };
     let mut entries: Vec<_> = inner.iter().collect();
-    entries.sort_by_key(|(key, _)| key.span().start);
+    entries.order_by_key(|(key, _)| key.span().start);
     let mut found = Vec::new();
     for (key, value) in entries {
         if let DeValue::String(text) = value.get_ref() {

@@ -6,6 +6,7 @@ use liouville::mechanics::{
     Algebra, BracketBlock, Lagrangian, Meaning, Model, Potential, Shape, Surface, System,
     VariableRole,
 };
+use liouville::order::StableOrder;
 use serde::Serialize;
 
 use super::system_line::{SystemLine, boxes, parameters};
@@ -250,7 +251,7 @@ impl Description {
                 lines.push((index, SystemLine::definition(model, &entry.name, own)));
             }
         }
-        lines.sort_by_key(|(index, _)| *index);
+        lines.order_by_key(|(index, _)| *index);
         lines.dedup_by_key(|(index, _)| *index);
         self.functions.splice(0..0, lines.into_iter().map(|(_, line)| line));
     }

@@ -19,6 +19,7 @@ use liouville::case::Case;
 use liouville::claim::{Reversor, Statement, Symmetry, clock};
 use liouville::formula::{Formula, Type};
 use liouville::mechanics::{System, VariableRole};
+use liouville::order::StableOrder;
 
 /// Largest number of components of which all signed permutations are tried.
 const MOST_COMPONENTS: usize = 6;
@@ -83,7 +84,7 @@ pub fn exchanges(case: &Case, seed: u64) -> Vec<MapCandidate> {
     let mut fitting: Vec<Exchange> = all.filter(fits).collect();
     // Changes of sign alone come first as generators; of few components they are tried elsewhere.
     let has_signs = !sign_changes(case).is_empty();
-    fitting.sort_by_key(|own| (own.is_permutation(), own.size(), own.reverses));
+    fitting.order_by_key(|own| (own.is_permutation(), own.size(), own.reverses));
     let mut group: BTreeSet<Exchange> = BTreeSet::new();
     let (mut generators, mut kept) = (Vec::new(), Vec::new());
     for own in fitting {

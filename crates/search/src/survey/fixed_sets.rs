@@ -12,6 +12,7 @@ use liouville::claim::LevelSubset;
 use liouville::graph::{Evaluator, Tape};
 use liouville::number::float::Float;
 use liouville::number::rational::Rational;
+use liouville::order::StableOrder;
 use liouville::verdict::Sampler;
 
 /// Number of drawn states.
@@ -32,7 +33,7 @@ pub fn distinct_on_level(case: &Case, seed: u64, all: Vec<MapCandidate>) -> Vec<
     };
     let places = || states.iter().map(|own| own.1.clone()).collect::<Vec<_>>();
     let mut order: Vec<usize> = (0..all.len()).collect();
-    order.sort_by_key(|place| (all[*place].images.len(), *place));
+    order.order_by_key(|place| (all[*place].images.len(), *place));
     let mut kept: Vec<(usize, Vec<Vec<f64>>)> = Vec::new();
     for place in order {
         let own = images(&all[place]).unwrap_or_default();

@@ -17,6 +17,7 @@ use liouville::case::Case;
 use liouville::claim::Claim;
 use liouville::formula::Formula;
 use liouville::mechanics::System;
+use liouville::order::StableOrder;
 use liouville::verdict::{ClaimReport, JudgeError, Options, Verdict, judge};
 
 /// Largest number of integrals of which pairs are tried.
@@ -212,7 +213,7 @@ fn sets(commute: &[Vec<bool>], dimension: usize) -> Vec<Vec<usize>> {
         };
         open = open.iter().flat_map(longer).collect();
     }
-    found.sort_by_key(|set| std::cmp::Reverse(set.len()));
+    found.order_by_key(|set| std::cmp::Reverse(set.len()));
     found
 }
 

@@ -4,6 +4,7 @@ use super::hierarchy::MeasureStatus;
 use super::question::TestedClaim;
 use crate::FoundKind;
 use liouville::case::Case;
+use liouville::order::StableOrder;
 use liouville::verdict::Verdict;
 
 /// Findings sorted by subject.
@@ -68,11 +69,11 @@ impl Sorted {
             sorted.criterion.retain(|one| !one.is("smooth-density"));
         }
         // Simple formulas first, and those of the case after those of the families.
-        sorted.integrals.sort_by_key(|one| {
+        sorted.integrals.order_by_key(|one| {
             let length = one.formula().chars().count();
             (!one.is_general, !one.is_of_family(), one.is_quadrature(), length)
         });
-        sorted.densities.sort_by_key(|one| (!one.is_of_family(), one.is_quadrature()));
+        sorted.densities.order_by_key(|one| (!one.is_of_family(), one.is_quadrature()));
         sorted
     }
 }

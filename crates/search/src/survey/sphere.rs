@@ -16,6 +16,7 @@ use liouville::graph::{Evaluator, Expr, Tape, record};
 use liouville::mechanics::{Phase, System};
 use liouville::number::float::Float;
 use liouville::number::rational::Rational;
+use liouville::order::StableOrder;
 use liouville::scalar::Scalar;
 use liouville::verdict::{JudgeError, Options, Sampler};
 
@@ -78,7 +79,7 @@ pub fn density(case: &Case, options: &Options) -> Result<Option<SphereMap>, Judg
             let (mut value, mut from) = (along_equator, 0.0);
             let mut rows: Vec<usize> =
                 (0..LATITUDES).filter(|row| latitudes[*row] * hemisphere > 0.0).collect();
-            rows.sort_by(|a, b| latitudes[*a].abs().total_cmp(&latitudes[*b].abs()));
+            rows.order_by(|a, b| latitudes[*a].abs().total_cmp(&latitudes[*b].abs()));
             for row in rows {
                 let to = latitudes[row];
                 value -= body.work(|t| point(from + (to - from) * t, *longitude));

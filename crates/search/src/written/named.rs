@@ -2,6 +2,7 @@
 
 use liouville::mechanics::{Meaning, System};
 use liouville::number::rational::Rational;
+use liouville::order::StableOrder;
 use liouville::proof::{MOST_POLYNOMIAL_WORK, Polynomial};
 
 use super::super::orbit::parsed::is_name;
@@ -154,7 +155,7 @@ fn bracketed(text: &str) -> Vec<&str> {
             _ => {}
         }
     }
-    found.sort_by_key(|(start, _)| *start);
+    found.order_by_key(|(start, _)| *start);
     found.into_iter().map(|(_, own)| own).collect()
 }
 

@@ -1,6 +1,7 @@
 //! Fractions as texts: a product of factors, or a sum over a product.
 
 use liouville::number::rational::Rational;
+use liouville::order::StableOrder;
 use liouville::proof::{MOST_POLYNOMIAL_WORK, Polynomial};
 use num_bigint::BigInt;
 use num_integer::Integer;
@@ -248,7 +249,7 @@ fn divided(own: &Polynomial) -> Option<(Rational, Vec<Factor>)> {
         }
     }
     // Variables come before sums, in the order of the file.
-    all.sort_by_key(|own| (own.polynomial.size(), own.polynomial.variables()));
+    all.order_by_key(|own| (own.polynomial.size(), own.polynomial.variables()));
     match rest.number() {
         Some(number) => Some((number, all)),
         None => {
@@ -297,7 +298,7 @@ fn positive(terms: Vec<(bool, String)>) -> (bool, String) {
 }
 
 fn with_sums_first(mut terms: Vec<(bool, String)>) -> String {
-    terms.sort_by_key(|(is_negative, _)| *is_negative);
+    terms.order_by_key(|(is_negative, _)| *is_negative);
     joined(terms)
 }
 
@@ -306,7 +307,7 @@ fn terms(reader: &mut Reader<'_>, own: &Polynomial) -> Option<Vec<(bool, String)
     let mut moving: Vec<u32> = own.variables();
     moving.retain(|token| !reader.tokens.is_constant(*token));
     let mut groups: Vec<(Vec<u32>, Polynomial)> = own.collected(&moving).into_iter().collect();
-    groups.sort_by_key(|(powers, _)| {
+    groups.order_by_key(|(powers, _)| {
         let falling: Vec<i64> = powers.iter().map(|power| -i64::from(*power)).collect();
         (powers.iter().sum::<u32>(), falling)
     });
@@ -357,7 +358,7 @@ fn term(reader: &Reader<'_>, value: &Rational, exponents: &[(u32, u32)]) -> (boo
 /// Terms of a polynomial, one by one.
 fn plain_terms(reader: &Reader<'_>, own: &Polynomial) -> Vec<(bool, String)> {
     let mut all: Vec<_> = own.terms().collect();
-    all.sort_by_key(|(_, exponents)| exponents.iter().map(|(_, power)| *power).sum::<u32>());
+    all.order_by_key(|(_, exponents)| exponents.iter().map(|(_, power)| *power).sum::<u32>());
     all.into_iter().map(|(value, exponents)| term(reader, value, exponents)).collect()
 }
 

@@ -3,6 +3,8 @@
 //! The function that vanishes there is evaluated at points of the branch in planes across the
 //! direction of the first point; false position with halved ends (Illinois) closes in on its zero.
 
+use liouville::order::StableOrder;
+
 use super::family::Place;
 use super::node::{KINDS, Node, tests};
 use super::request::Bifurcation;
@@ -68,7 +70,7 @@ impl Solver<'_> {
             }
             found.push((zero.share, node));
         }
-        found.sort_by(|a, b| a.0.total_cmp(&b.0));
+        found.order_by(|a, b| a.0.total_cmp(&b.0));
         Ok(found.into_iter().map(|(_, node)| node).collect())
     }
 

@@ -8,6 +8,7 @@ use crate::closed::cycle::SUPPORTED;
 use crate::error::FlowError;
 use crate::taylor::stepper::Accuracy;
 use liouville::number::double_double::DoubleDouble;
+use liouville::order::StableOrder;
 
 /// Iteration limit of Newton's method.
 const MOST_ITERATIONS: usize = 9;
@@ -166,7 +167,7 @@ impl Solver<'_> {
         let parts = matrix.svd(false, true);
         let right = parts.v_t?;
         let mut order: Vec<usize> = (0..=count).collect();
-        order.sort_by(|a, b| parts.singular_values[*b].total_cmp(&parts.singular_values[*a]));
+        order.order_by(|a, b| parts.singular_values[*b].total_cmp(&parts.singular_values[*a]));
         let (largest, least) = (parts.singular_values[order[0]], order.get(count.wrapping_sub(1)));
         let least = least.filter(|_| count > 0).map(|k| parts.singular_values[*k]);
         if least.is_some_and(|least| least <= DEGENERATE * largest.max(1.0)) {

@@ -12,7 +12,7 @@ pub(super) fn between<T: SeriesNumber<One = T>>(
     [from, to]: [T; 2],
     [begin, end]: [bool; 2],
     rounding: f64,
-    doubt: impl Fn() -> f64,
+    doubt: &dyn Fn() -> f64,
 ) -> Vec<Event<T>> {
     let length = (to - from).leading();
     let forward = length > 0.0;

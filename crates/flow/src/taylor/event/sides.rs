@@ -63,13 +63,13 @@ impl Sides {
         &mut self,
         polynomial: &[T],
         length: T,
-        doubt: impl Fn() -> f64,
+        doubt: &dyn Fn() -> f64,
     ) -> Vec<Event<T>> {
         if length.leading() == 0.0 {
             return Vec::new();
         }
         let rounding = size(polynomial, length) * ROUNDINGS * T::EPSILON;
-        let begin = self.begin(polynomial, length, rounding, &doubt);
+        let begin = self.begin(polynomial, length, rounding, doubt);
         let end = value(polynomial, length).0.leading() > 0.0;
         *self = Self { positive: Some(end), rounding, open: None };
         let leading: Vec<f64> = polynomial.iter().map(|own| own.leading()).collect();
@@ -79,7 +79,7 @@ impl Sides {
             let is_last = to == length.leading();
             let to = if is_last { length } else { T::float(to) };
             let there = if is_last { end } else { value(polynomial, to).0.leading() > 0.0 };
-            events.extend(between(polynomial, [from, to], [side, there], rounding, &doubt));
+            events.extend(between(polynomial, [from, to], [side, there], rounding, doubt));
             (from, side) = (to, there);
         }
         events
@@ -91,7 +91,7 @@ impl Sides {
         polynomial: &[T],
         length: T,
         rounding: f64,
-        doubt: impl Fn() -> f64,
+        doubt: &dyn Fn() -> f64,
     ) -> bool {
         let first = polynomial[0].leading();
         match self.positive {
@@ -141,7 +141,7 @@ mod tests {
     }
 
     fn events(polynomial: &[f64], length: f64) -> Vec<Event<f64>> {
-        Sides::default().events(polynomial, length, || 0.0)
+        Sides::default().events(polynomial, length, &|| 0.0)
     }
 
     fn times(found: &[Event<f64>]) -> Vec<(f64, bool)> {
@@ -209,8 +209,8 @@ mod tests {
         // The first piece ends just before or behind the root; the next one disagrees by rounding.
         for (end, begin) in [(1e-17, -1e-17), (-1e-17, 1e-17), (1e-17, 1e-17), (-1e-17, -1e-17)] {
             let mut sides = Sides::default();
-            let mut found = sides.events(&[1.0 + end, -1.0], 1.0, || 0.0);
-            found.extend(sides.events(&[begin, -1.0], 1.0, || 0.0));
+            let mut found = sides.events(&[1.0 + end, -1.0], 1.0, &|| 0.0);
+            found.extend(sides.events(&[begin, -1.0], 1.0, &|| 0.0));
             assert_eq!(times(&found).len(), 1, "{end:e}, {begin:e}");
         }
     }
@@ -220,10 +220,10 @@ mod tests {
         // Values are wrong by 0.1 here, far more than the terms of the polynomials show.
         for (end, begin) in [(0.02, -0.03), (-0.02, 0.03), (0.02, 0.03), (-0.02, -0.03)] {
             let mut sides = Sides::on(true);
-            let mut found = sides.events(&[1.0 + end, -1.0], 1.0, || 0.1);
-            found.extend(sides.events(&[begin, -1.0], 1.0, || 0.1));
+            let mut found = sides.events(&[1.0 + end, -1.0], 1.0, &|| 0.1);
+            found.extend(sides.events(&[begin, -1.0], 1.0, &|| 0.1));
             assert_eq!(times(&found).len(), 1, "{end}, {begin}");
-            let known = Sides::on(end > 0.0).events(&[begin, -1.0], 1.0, || 1e-3);
+            let known = Sides::on(end > 0.0).events(&[begin, -1.0], 1.0, &|| 1e-3);
             assert_eq!(times(&known).len(), usize::from(begin > 0.0), "{end}, {begin}: it jumps");
         }
     }
@@ -231,9 +231,9 @@ mod tests {
     #[test]
     fn a_jump_between_two_pieces_is_no_crossing() {
         let mut sides = Sides::on(true);
-        assert_eq!(sides.events(&[2.0, -1.0], 1.0, || 1e-3), []);
-        assert_eq!(sides.events(&[-1.0, -1.0], 1.0, || 1e-3), [], "from 1 to -1");
-        assert_eq!(sides.events(&[-2.0, 3.0], 1.0, || 1e-3).len(), 1, "up again");
+        assert_eq!(sides.events(&[2.0, -1.0], 1.0, &|| 1e-3), []);
+        assert_eq!(sides.events(&[-1.0, -1.0], 1.0, &|| 1e-3), [], "from 1 to -1");
+        assert_eq!(sides.events(&[-2.0, 3.0], 1.0, &|| 1e-3).len(), 1, "up again");
         let ends = Ends::new(&[-1.0, -1.0], 1.0);
         assert!(!Sides::on(true).pass(&ends, 0), "left to the one that knows the doubt");
     }
@@ -241,9 +241,9 @@ mod tests {
     #[test]
     fn a_touch_within_the_doubt_is_a_tangency() {
         let beside = with_roots(&[0.4, 0.41]);
-        let touch = Sides::default().events(&beside, 1.0, || 1e-3);
+        let touch = Sides::default().events(&beside, 1.0, &|| 1e-3);
         assert!(matches!(touch[..], [Event::Tangency { .. }]), "{touch:?}");
-        assert_eq!(times(&Sides::default().events(&beside, 1.0, || 1e-6)).len(), 2);
+        assert_eq!(times(&Sides::default().events(&beside, 1.0, &|| 1e-6)).len(), 2);
     }
 
     #[test]
@@ -257,7 +257,7 @@ mod tests {
             let before = Sides::on(polynomial[0] > 0.0);
             let (mut quick, mut slow) = (before, before);
             let passes = quick.pass(&Ends::new(&polynomial, length), 0);
-            let found = slow.events(&polynomial, length, || 0.0);
+            let found = slow.events(&polynomial, length, &|| 0.0);
             if passes {
                 assert_eq!(found, [], "{polynomial:?}");
                 assert_eq!(quick.positive, slow.positive, "{polynomial:?}");

@@ -12,7 +12,7 @@ impl Sides {
         &mut self,
         polynomial: &[T],
         length: T,
-        doubt: impl Fn() -> f64,
+        doubt: &dyn Fn() -> f64,
         ends_at_turn: bool,
     ) -> Vec<Event<T>> {
         if !ends_at_turn && self.open.is_none() || length.leading() == 0.0 {
@@ -32,11 +32,11 @@ impl Sides {
         let before = self.open.take();
         let begin = match before {
             Some(_) => starts_positive(polynomial, tolerance, length),
-            None => self.begin(polynomial, length, rounding, &doubt),
+            None => self.begin(polynomial, length, rounding, doubt),
         };
         let forward = length.leading() > 0.0;
         let mut own = Sides::on(begin);
-        let mut events = own.events(polynomial, length, &doubt);
+        let mut events = own.events(polynomial, length, doubt);
         if let Some(before) = before {
             events.retain(|event| !stays(T::ZERO, event.after()));
             let after = T::ZERO;
@@ -68,7 +68,7 @@ mod tests {
     /// Events of pieces of length 1 that all end at turns.
     fn events(pieces: &[&[f64]], begin: bool) -> Vec<Vec<Event<f64>>> {
         let mut sides = Sides::on(begin);
-        let found = pieces.iter().map(|own| sides.events_up_to_turn(own, 1.0, || 0.0, true));
+        let found = pieces.iter().map(|own| sides.events_up_to_turn(own, 1.0, &|| 0.0, true));
         found.collect()
     }
 
@@ -96,7 +96,7 @@ mod tests {
             panic!("{found:?}")
         };
         let mut sides = Sides::on(true);
-        let plain = sides.events_up_to_turn(&[0.5, -1.0], 1.0, || 0.0, false);
+        let plain = sides.events_up_to_turn(&[0.5, -1.0], 1.0, &|| 0.0, false);
         assert_eq!(plain.len(), 1, "without a turn");
     }
 }

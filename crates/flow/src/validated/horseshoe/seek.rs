@@ -23,6 +23,7 @@ use liouville::graph::Expr;
 use liouville::mechanics::Model;
 use liouville::number::double_double::DoubleDouble;
 use liouville::number::rational::Rational;
+use liouville::order::StableOrder;
 use liouville::scalar::Scalar;
 
 /// Distance of the first starts against the saddle's state.
@@ -142,7 +143,7 @@ impl<'s> Seeker<'s> {
                 }
             }
         }
-        pairs.sort_by(|(_, a, _), (_, b, _)| a.time.total_cmp(&b.time));
+        pairs.order_by(|(_, a, _), (_, b, _)| a.time.total_cmp(&b.time));
         let mut all = Vec::new();
         for (index, crossing, other) in pairs {
             if all.len() == MOST_FOUND {
@@ -151,7 +152,7 @@ impl<'s> Seeker<'s> {
             let ends = [starts[index], starts[index + 1]];
             all.extend(self.refined(ends, [crossing, other], look)?);
         }
-        all.sort_by(|a: &Homoclinic, b| a.time.total_cmp(&b.time));
+        all.order_by(|a: &Homoclinic, b| a.time.total_cmp(&b.time));
         let back = |side: &[Vec<SaddleCrossing>]| {
             2 * side.iter().filter(|own| own.iter().any(|one| one.returned)).count() > side.len()
         };
@@ -254,7 +255,7 @@ impl<'s> Seeker<'s> {
     ) {
         let piece = stepper.piece(lane);
         let doubt = || self.program.rounding::<f64>(0, &stepper.pairs(lane), 0.0);
-        for event in sides.events(&piece.output(0), piece.length(), doubt) {
+        for event in sides.events(&piece.output(0), piece.length(), &doubt) {
             let Event::Crossing { after, rising: true } = event else { continue };
             let state: Vec<f64> = piece.state(after).iter().map(|x| x.hi).collect();
             if distance(&state, &self.saddle.home.origin) > near {

@@ -3,6 +3,7 @@
 use super::super::program::{ProgramStep, StepProgram, Value};
 use crate::assembler::Width;
 use crate::number::UnaryFunction;
+use crate::order::StableOrder;
 
 /// Constants that instructions need in addition to those of the program.
 const EXTRA: [f64; 3] = [1.0, -0.0, f64::from_bits(!(1 << 63))];
@@ -46,7 +47,7 @@ impl Constants {
                 reads[*constant as usize] * ONE_IN >= program.steps.len().max(ONE_IN)
             })
             .collect();
-        often.sort_by_key(|constant| std::cmp::Reverse(reads[*constant as usize]));
+        often.order_by_key(|constant| std::cmp::Reverse(reads[*constant as usize]));
         often.truncate(MOST_KEPT);
         constants.kept = often;
         constants

@@ -8,6 +8,7 @@ use num_integer::Integer;
 use num_traits::{One, Zero};
 
 use crate::number::rational::Rational;
+use crate::order::StableOrder;
 use crate::proof::rng::{ProofRng, ProofStream};
 
 use super::lifting::Lifting;
@@ -146,7 +147,7 @@ impl Polynomial {
         };
         let mut sets: Vec<u32> = (1..(1 << count) - 1).collect();
         sets.retain(|set| 2 * set.count_ones() as usize <= count);
-        sets.sort_by_key(|set| set.count_ones());
+        sets.order_by_key(|set| set.count_ones());
         for set in sets {
             let of = |is_chosen: bool| {
                 let own = start.factors.iter().enumerate();

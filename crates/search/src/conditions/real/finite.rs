@@ -8,6 +8,7 @@
 use std::collections::BTreeMap;
 
 use liouville::number::rational::Rational;
+use liouville::order::StableOrder;
 
 use super::arithmetic::{Terms, contains};
 use super::signature::signature;
@@ -78,7 +79,7 @@ impl Algebra {
         let mut all: Vec<(usize, usize)> =
             (0..used.len()).flat_map(|k| (0..size).map(move |j| (k, j))).collect();
         let target = |(k, j): &(usize, usize)| raised(&monomials[*j], used[*k]);
-        all.sort_by(|a, b| order(&target(a)).cmp(&order(&target(b))));
+        all.order_by(|a, b| order(&target(a)).cmp(&order(&target(b))));
         let mut reduced: BTreeMap<Vec<u32>, Vector> = BTreeMap::new();
         for (k, j) in all {
             let own = target(&(k, j));

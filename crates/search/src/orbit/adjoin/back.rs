@@ -3,6 +3,7 @@
 //! Terms are rewritten as a person writes them: u² − 2*k/√(x² + y²) for u² − 2*k*w, w = 1/r.
 
 use liouville::formula::exponent_text;
+use liouville::order::StableOrder;
 use num_integer::Integer;
 
 use super::parsed::{
@@ -83,7 +84,7 @@ impl Back {
         if 2 * negative > all.len() {
             all.iter_mut().for_each(|(is_negative, _)| *is_negative = !*is_negative);
         }
-        all.sort_by_key(|(is_negative, _)| *is_negative);
+        all.order_by_key(|(is_negative, _)| *is_negative);
         joined(all)
     }
 
@@ -245,7 +246,7 @@ pub fn with_signs(text: &str) -> Option<String> {
         return None;
     }
     all.iter_mut().for_each(|(is_negative, _)| *is_negative ^= is_turned);
-    all.sort_by_key(|(is_negative, _)| *is_negative);
+    all.order_by_key(|(is_negative, _)| *is_negative);
     Some(joined(all))
 }
 

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use liouville::number::exact::square_root;
 use liouville::number::prime::Modulus;
 use liouville::number::rational::Rational;
+use liouville::order::StableOrder;
 
 /// Largest number of terms; longer polynomials are not made.
 const MOST_TERMS: usize = 400;
@@ -268,7 +269,7 @@ pub fn combination(a: &RingPolynomial, basis: &[RingPolynomial]) -> Option<Vec<R
     // Rows of monomials, columns of the basis, with `a` as the last.
     let all: Vec<&RingPolynomial> = basis.iter().chain([a]).collect();
     let mut monomials: Vec<&Monomial> = all.iter().flat_map(|own| own.0.keys()).collect();
-    monomials.sort();
+    monomials.order();
     monomials.dedup();
     let entry = |own: &RingPolynomial, monomial: &Monomial| {
         own.0.get(monomial).cloned().unwrap_or_else(|| Rational::from(0))
