@@ -24,11 +24,11 @@ pub fn vanishes_nowhere_openly_on(
         let function = values[index];
         let inputs = graph.inputs_of(function).into_iter();
         let affine = inputs.filter(|input| *input >= first && !solved.contains(input));
-        let found = affine.filter_map(|input| {
+        let mut found = affine.filter_map(|input| {
             let slope = slope(&graph, graph.place(function), input)?;
             (!slope.is_zero()).then_some((input, slope))
         });
-        let Some((input, slope)) = found.last() else { return Ok(false) };
+        let Some((input, slope)) = found.next_back() else { return Ok(false) };
         solved.push(input);
         (graph, values) = restated(&graph, &values, |inputs| {
             inputs[input] = Expr::zero();
