@@ -306,5 +306,5 @@ fn at(values: &[Option<Expr>], graph: &Graph, of: &[Expr]) -> Option<Vec<Expr>> 
 
 /// Whether a number is known to be positive.
 fn is_positive(value: &Number) -> bool {
-    Mixed::excludes_zero(value, 0) && Mixed::enclosure(value, 0).is_some_and(|(mid, _)| mid > 0.0)
+    Mixed::is_positive(value, 0)
 }

@@ -280,9 +280,7 @@ impl<'p> Membership<'p> {
         evaluator.run(&inputs);
         for block in evaluator.outputs() {
             for (lane, exists) in existing.iter_mut().enumerate() {
-                let is_positive = D::excludes_zero(block, lane)
-                    && D::enclosure(block, lane).is_some_and(|(mid, _)| mid > 0.0);
-                *exists = *exists && is_positive;
+                *exists = *exists && D::is_positive(block, lane);
             }
         }
     }

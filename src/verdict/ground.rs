@@ -9,7 +9,7 @@ use crate::claim::LevelSubset;
 use crate::graph::{Expr, Fault};
 use crate::mechanics::{Chart, combinations};
 use crate::number::arb::ArbBall;
-use crate::number::ball::Ball;
+use crate::number::ball::{Ball, Balls};
 use crate::number::rational::Rational;
 
 impl Judging<'_> {
@@ -27,18 +27,35 @@ impl Judging<'_> {
                 false => Ok(()),
             };
         }
-        let values = self.run(&rates).at(&Ball::<TAPE_LANES>, &sampler.balls(0));
+        let states = sampler.balls(0);
+        let values = self.run(&rates).at(&Ball::<TAPE_LANES>, &states);
         let is_state = values.existing(&[]);
         let kept = self.case.model.level.iter().zip(&place.kept).filter(|(_, kept)| **kept);
         for (index, (equation, _)) in kept.enumerate() {
             let rate = values.output(index);
             let changes = |lane: &usize| is_state[*lane] && rate.excludes_zero(*lane);
-            if let Some(lane) = (0..TAPE_LANES).find(changes) {
+            if let Some(lane) = self.first_with_motion(sampler, &states, changes) {
                 let (equation, rate) = (equation.text.clone(), format!("{:e}", rate.mid[lane]));
                 return Err(JudgeError::NotInvariant { equation, rate });
             }
         }
         Ok(self.check_slopes(sampler)?)
+    }
+
+    /// Finds the first state of a block with a property at which the equations of motion, as they are written, have a
+    /// value.
+    pub(super) fn first_with_motion(
+        &self,
+        sampler: &Sampler,
+        states: &[Balls<TAPE_LANES>],
+        has_property: impl Fn(&usize) -> bool,
+    ) -> Option<usize> {
+        let mut lanes = (0..TAPE_LANES).filter(has_property).peekable();
+        lanes.peek()?;
+        let written = self.common.required_at(sampler.kept());
+        let values = self.run(&written).at(&Ball::<TAPE_LANES>, states);
+        let exists = values.existing(std::slice::from_ref(&(0..written.len())));
+        lanes.find(|lane| exists[*lane])
     }
 
     /// Returns the error that names a violated or non-invariant equation, if a premise is known not
@@ -57,21 +74,21 @@ impl Judging<'_> {
         let field = PrimeFieldStates::new(self, sampler);
         for (index, answer) in kept().zip(field.test(&level)?) {
             if answer.is_nonzero()
-                && let Some(by) = self.magnitude(sampler, self.common.level[index])
+                && let Some(by) = self.magnitude(sampler, self.common.level[index], false)
             {
                 return Err(self.off_level(text(index), by));
             }
         }
         for (value, text) in self.halves_of_chart(place) {
             if field.test(&[Query::of(vec![value])])?.iter().any(Answer::is_nonzero)
-                && let Some(by) = self.magnitude(sampler, value)
+                && let Some(by) = self.magnitude(sampler, value, false)
             {
                 return Err(self.off_level(text.to_string(), by));
             }
         }
         for (index, answer) in kept().zip(field.test(&rates)?) {
             if answer.is_nonzero()
-                && let Some(rate) = self.magnitude(sampler, self.common.level_rates[index])
+                && let Some(rate) = self.magnitude(sampler, self.common.level_rates[index], true)
             {
                 return Err(JudgeError::NotInvariant { equation: text(index), rate });
             }
@@ -81,9 +98,13 @@ impl Judging<'_> {
 
     /// Prints a value that is not identically zero, at a state where it is seen not to vanish. `None` where it
     /// is seen at none of the states of a level that is solved: a field does not know which signs of roots
-    /// lead to states.
-    fn magnitude(&self, sampler: &Sampler, value: Expr) -> Option<String> {
-        let run = self.run(&[value]);
+    /// lead to states. A rate counts where the equations of motion, as they are written, have a value.
+    fn magnitude(&self, sampler: &Sampler, value: Expr, is_rate: bool) -> Option<String> {
+        let written = match is_rate {
+            true => self.common.required_at(sampler.kept()),
+            false => Vec::new(),
+        };
+        let run = self.run(&[&[value][..], &written].concat());
         for bits in LADDER_BITS {
             let domain = ArbBall::new(bits);
             for index in 0..PRECISE_STATES {
@@ -93,6 +114,9 @@ impl Judging<'_> {
                     continue;
                 }
                 let values = run.at(&domain, &states);
+                if !values.existing(std::slice::from_ref(&(1..written.len() + 1)))[0] {
+                    continue;
+                }
                 if let Some(found) = values.output(0).as_ref().filter(|x| x.excludes_zero()) {
                     return Some(found.rough());
                 }

@@ -202,7 +202,7 @@ impl Judging<'_> {
         for (equation, index) in model.level.iter().zip(rates..physics) {
             let rate = values.output(index);
             let changes = |lane: &usize| is_state(*lane) && rate.excludes_zero(*lane);
-            if let Some(lane) = (0..TAPE_LANES).find(changes) {
+            if let Some(lane) = self.first_with_motion(sampler, &states, changes) {
                 let (equation, rate) = (equation.text.clone(), format!("{:e}", rate.mid[lane]));
                 return Err(match model.system.is_map() {
                     true => JudgeError::NotMapped { equation, by: rate },

@@ -275,9 +275,9 @@ fn observe<D: Enclosing>(
 
 /// Records the sign of one value, and returns whether it is known.
 fn note<D: Enclosing>(block: &D::Block, lane: usize, seen: &mut [bool; 2]) -> bool {
-    let known = D::enclosure(block, lane).filter(|_| D::excludes_zero(block, lane));
-    if let Some((mid, _)) = known {
-        seen[usize::from(mid > 0.0)] = true;
+    let is_known = D::excludes_zero(block, lane);
+    if is_known {
+        seen[usize::from(D::is_positive(block, lane))] = true;
     }
-    known.is_some()
+    is_known
 }

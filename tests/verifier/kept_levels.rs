@@ -103,3 +103,20 @@ fn slopes_are_asked_on_parts_of_which_no_state_is_drawn() {
         assert_eq!(verdicts(&text), [Verdict::Undecided], "{size}");
     }
 }
+
+#[test]
+fn a_part_on_which_the_field_as_written_has_no_value_is_left_by_no_motion() {
+    let of = |rate: &str| {
+        let text = format!(
+            "title = 't'\n[state]\nx = '-2..2'\ny = '-2..2'\n[field]\n\"x'\" = '{rate}'\n\"y'\" = '0'\n\
+             [level]\nequations = ['x*y = 0']\n[[claim]]\nidentity = 'y = 0'\n"
+        );
+        let case = Case::parse(&text, &[]).unwrap_or_else(|error| panic!("{error}"));
+        judge(&case, &Options::default()).map(|report| report.claims[0].verdict)
+    };
+    for rate in ["1 + 0/x", "x/x", "1 + y/x"] {
+        assert!(of(rate).is_ok_and(|own| own != Verdict::Refuted), "{rate}");
+    }
+    assert!(of("1").is_err(), "motions leave x = 0");
+    assert!(of("1 + 0/(x - 5)").is_err(), "motions leave x = 0");
+}

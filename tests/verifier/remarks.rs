@@ -76,3 +76,23 @@ fn what_comes_back_from_infinity_with_the_other_sign_does_not_fall_along_motions
         assert_eq!((one.verdict, one.evidence.independence), (Verdict::Proved, mark), "{function}");
     }
 }
+
+#[test]
+fn densities_that_are_smaller_than_any_double_have_their_sign() {
+    use liouville::case::Case;
+    use liouville::verdict::{DensitySign, Options, Verdict, judge};
+    for (density, expected) in [
+        ("exp(-1000 - x^2)", DensitySign::Positive),
+        ("-exp(-1000 - x^2)", DensitySign::Negative),
+        ("exp(-1000*x^2)", DensitySign::Positive),
+    ] {
+        let text = format!(
+            "title = 'x'\n[state]\nx = '-2..2'\ny = '-2..2'\n[field]\n\"x'\" = '0'\n\"y'\" = 'x'\n\
+             [[claim]]\ndensity = '{density}'\n[[claim]]\nintegral = 'max(x, 0)'\n"
+        );
+        let case = Case::parse(&text, &[]).expect("a case");
+        let found = judge(&case, &Options::default()).expect("a report").claims.remove(0);
+        assert_eq!(found.verdict, Verdict::Proved, "{density}");
+        assert_eq!(found.evidence.sign, Some(expected), "{density}");
+    }
+}

@@ -191,6 +191,14 @@ impl Enclosing for Mixed {
         }
     }
 
+    fn is_positive(block: &Number, _: usize) -> bool {
+        match block {
+            Number::Exact(value) => !value.is_negative() && !value.is_zero(),
+            Number::Ball(ball) => ball.is_positive(),
+            Number::Nothing | Number::Doubtful => false,
+        }
+    }
+
     fn excludes_zero(block: &Number, _: usize) -> bool {
         match block {
             Number::Exact(value) => !value.is_zero(),

@@ -100,6 +100,12 @@ pub trait Enclosing: Domain {
     /// Whether 0 is outside the enclosure; never where the lane is undefined.
     fn excludes_zero(block: &Self::Block, lane: usize) -> bool;
 
+    /// Whether every number of a lane is positive, also of numbers that are 0 when they are rounded to f64.
+    fn is_positive(block: &Self::Block, lane: usize) -> bool {
+        Self::excludes_zero(block, lane)
+            && Self::enclosure(block, lane).is_some_and(|(mid, _)| mid > 0.0)
+    }
+
     /// Prints a few digits of a nonzero number that the f64 enclosure cannot separate from 0.
     fn beyond_f64(_: &Self::Block, _: usize) -> Option<String> {
         None

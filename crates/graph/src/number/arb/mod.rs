@@ -149,6 +149,10 @@ impl Enclosing for ArbBall {
         block.as_ref().is_some_and(Approximation::excludes_zero)
     }
 
+    fn is_positive(block: &Self::Block, _: usize) -> bool {
+        block.as_ref().is_some_and(Approximation::is_positive)
+    }
+
     fn beyond_f64(block: &Option<Approximation>, _: usize) -> Option<String> {
         let value = block.as_ref().filter(|value| value.excludes_zero())?;
         let (mid, rad) = value.enclosure();
