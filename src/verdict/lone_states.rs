@@ -10,6 +10,7 @@ use super::run::Run;
 use super::sampler::{Sampler, TAPE_LANES};
 use crate::graph::{Expr, Fault, Step};
 use crate::number::Enclosing;
+use crate::number::arb::ArbBall;
 use crate::number::ball::Ball;
 use crate::number::mixed::Mixed;
 use crate::number::rational::Rational;
@@ -104,10 +105,17 @@ impl Judging<'_> {
         run: &Run,
         layout: &OutputLayout,
     ) -> bool {
-        let domain = Mixed::new(LADDER_BITS[0]);
-        neighbours(sampler, index).into_iter().any(|numbers| {
-            let values = run.at(&domain, &sampler.made_from(&domain, &numbers));
+        let all = neighbours(sampler, index);
+        // Balls take less time than exact numbers, which know more.
+        let (balls, exact) = (ArbBall::new(LADDER_BITS[0]), Mixed::new(LADDER_BITS[0]));
+        let in_balls = |numbers: &Vec<Rational>| {
+            let values = run.at(&balls, &sampler.made_from(&balls, numbers));
             layout.existing(&values, &layout.spans[0])[0]
-        })
+        };
+        let in_exact = |numbers: &Vec<Rational>| {
+            let values = run.at(&exact, &sampler.made_from(&exact, numbers));
+            layout.existing(&values, &layout.spans[0])[0]
+        };
+        all.iter().any(in_balls) || all.iter().any(in_exact)
     }
 }

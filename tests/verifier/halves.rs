@@ -136,18 +136,22 @@ fn the_place_of_the_other_equations_is_more_than_the_half() {
 #[test]
 fn a_chart_has_to_lead_to_the_half_of_the_file() {
     let of = |first: &str, claims: &[&str]| {
-        let chart = format!(
-            "'Qᵀ*Q = E', 'det(Q) = 1']\n[level.chart]\ninputs = {{ a = '-1..1' }}\n\
-             Q = '[[{first}, 0, 0], [0, cos(a), −sin(a)], [0, sin(a), cos(a)]]'\n'ω' = '[a, 0, 0]'\n#"
+        let claims: String =
+            claims.iter().map(|own| format!("[[claim]]\nidentity = '{own}'\n")).collect();
+        let text = format!(
+            "title = 'x'\n[state]\nQ = 'matrix(2, 2, -1..1)'\n[field]\n\"Q'\" = 'Q*[[0, −1], [1, 0]]'\n\
+             [level]\nequations = ['Qᵀ*Q = E', 'det(Q) = 1']\n[level.chart]\ninputs = {{ a = '-1..1' }}\n\
+             Q = '[[{first}*cos(a), −{first}*sin(a)], [sin(a), cos(a)]]'\n{claims}"
         );
-        verdicts("matrix(-1..1)", &chart, claims)
+        let case = Case::parse(&text, &[]).map_err(|error| error.to_string())?;
+        let found = judge(&case, &Options::default()).map_err(|error| error.to_string())?;
+        Ok::<Vec<Verdict>, String>(found.claims.into_iter().map(|own| own.verdict).collect())
     };
-    let claims =
-        ["identity = 'det(Q) = 1'", "identity = 'Q[1] × Q[2] = Q[3]'", "identity = 'Q = E'"];
+    let claims = ["det(Q) = 1", "Q[1,1] = Q[2,2]", "Q = E"];
     use Verdict::{Proved, Refuted};
     assert_eq!(of("1", &claims), Ok(vec![Proved, Proved, Refuted]));
     // Into the other half, and into both.
-    for first in ["−1", "a/|a|"] {
+    for first in ["(−1)", "(a/|a|)"] {
         let found = of(first, &claims[..1]);
         assert!(found.as_ref().is_err_and(|own| own.contains("det(Q) = 1")), "{first}: {found:?}");
     }

@@ -18,6 +18,8 @@ use super::trial::{Certificate, Residues, Roots, TRIAL_LANES, Trial, TrialResult
 
 /// Largest number of values to be related: the cost is cubic.
 pub const MOST_VALUES: usize = 40;
+/// Largest number of functions inside of each other whose arguments are compared with what is inside.
+const MOST_NESTED_FUNCTIONS: usize = 4;
 /// Number of rows beyond the number of columns.
 pub const SPARE_ROWS: usize = 4;
 
@@ -195,28 +197,26 @@ pub fn symbols(
         Ok((symbols, relations.certificate))
     };
     let opaque = Symbols::opaque(graph, reached);
-    let (first, certificate) = related(&opaque, false)?;
-    if !has_functions_of_functions(graph, reached) {
-        return Ok((first, certificate));
+    let (mut symbols, mut certificate) = related(&opaque, false)?;
+    for _ in 1..depth_of_functions(graph, reached).min(MOST_NESTED_FUNCTIONS) {
+        let (next, further) = related(&symbols, true)?;
+        if next.opaque_count() > symbols.opaque_count() {
+            break;
+        }
+        (symbols, certificate) = (next, both(certificate, further));
     }
-    let (second, further) = related(&first, true)?;
-    Ok(match second.opaque_count() <= first.opaque_count() {
-        true => (second, both(certificate, further)),
-        false => (first, certificate),
-    })
+    Ok((symbols, certificate))
 }
 
-/// Whether a function has another one inside, numbers such as π = 4 atan 1 excepted.
-fn has_functions_of_functions(graph: &Graph, reached: &[bool]) -> bool {
-    let (mut moves, mut has_function) = (vec![false; graph.len()], vec![false; graph.len()]);
-    let mut is_nested = |place: usize, step: Step<'_>| {
+/// Largest number of functions inside of each other, numbers such as π = 4 atan 1 excepted.
+fn depth_of_functions(graph: &Graph, reached: &[bool]) -> usize {
+    let (mut moves, mut depths) = (vec![false; graph.len()], vec![0; graph.len()]);
+    for (place, step) in graph.steps().enumerate().filter(|(place, _)| reached[*place]) {
         moves[place] = matches!(step, Step::Input(_)) || step.arguments().any(|a| moves[a]);
-        let inside = step.arguments().any(|a| has_function[a]);
-        has_function[place] = inside || step.is_transcendental() && moves[place];
-        inside && step.is_transcendental()
-    };
-    let mut steps = graph.steps().enumerate().filter(|(place, _)| reached[*place]);
-    steps.any(|(place, step)| is_nested(place, step))
+        let inside = step.arguments().map(|a| depths[a]).max().unwrap_or(0);
+        depths[place] = inside + usize::from(step.is_transcendental() && moves[place]);
+    }
+    depths.into_iter().max().unwrap_or(0)
 }
 
 /// A test of functions of the values at some places of a graph.
