@@ -1,6 +1,6 @@
 //! Premises of all claims: states lie on the level, and the motion stays there.
 
-use super::field::{Answer, PrimeFieldStates, Query};
+use super::field::{PrimeFieldStates, Query};
 use super::judge::JudgeError;
 use super::judging::Judging;
 use super::ladder::{LADDER_BITS, PRECISE_STATES};
@@ -79,13 +79,6 @@ impl Judging<'_> {
                 return Err(self.off_level(text(index), by));
             }
         }
-        for (value, text) in self.halves_of_chart(place) {
-            if field.test(&[Query::of(vec![value])])?.iter().any(Answer::is_nonzero)
-                && let Some(by) = self.magnitude(sampler, value, false)
-            {
-                return Err(self.off_level(text.to_string(), by));
-            }
-        }
         for (index, answer) in kept().zip(field.test(&rates)?) {
             if answer.is_nonzero()
                 && let Some(rate) = self.magnitude(sampler, self.common.level_rates[index], true)
@@ -131,20 +124,7 @@ impl Judging<'_> {
     fn level_values(&self, place: &LevelSubset, sampler: &Sampler) -> Result<Vec<Expr>, Fault> {
         let (level, rates) = self.common.level_at(&place.kept);
         let rates = if self.is_at_rest(sampler)? { Vec::new() } else { rates };
-        let halves = self.halves_of_chart(place).map(|(value, _)| value).collect();
-        Ok([level, rates, halves].concat())
-    }
-
-    /// Lists the functions that choose halves of the level, with their equations, where the file gives a chart, which
-    /// may lead to others.
-    pub(super) fn halves_of_chart(
-        &self,
-        place: &LevelSubset,
-    ) -> impl Iterator<Item = (Expr, &str)> {
-        let is_asked =
-            matches!(self.case.chart, Chart::Given(_)) && place.kept.iter().all(|kept| *kept);
-        let texts = self.case.model.orientations.iter().map(|own| own.equation.text.as_str());
-        self.common.halves.iter().copied().zip(texts).filter(move |_| is_asked)
+        Ok([level, rates].concat())
     }
 
     /// Returns the question whether these values vanish, and exist where states count.

@@ -161,6 +161,10 @@ impl Judging<'_> {
             [&common.field[..], &common.level, &common.level_rates, &common.physics].concat();
         let skew = outputs.len();
         outputs.extend(&common.symmetric);
+        let halves = outputs.len();
+        if matches!(self.case.chart, Chart::Given(_)) {
+            outputs.extend(&common.halves);
+        }
         let values = self.run(&outputs).at(&Ball::<TAPE_LANES>, &states);
         let fields = common.field.len();
         let rates = fields + common.level.len();
@@ -170,10 +174,11 @@ impl Judging<'_> {
             return Err(JudgeError::AsymmetricInertia);
         }
         let is_off = |index: usize| (0..TAPE_LANES).any(|k| values.output(index).excludes_zero(k));
-        if let Some(place) = (skew..outputs.len()).find(|index| is_off(*index)) {
+        if let Some(place) = (skew..halves).find(|index| is_off(*index)) {
             return Err(JudgeError::NotSkew(block_of(&model.state, place - skew)));
         }
-        for (equation, index) in model.level.iter().zip(fields..rates) {
+        let chosen = model.orientations.iter().map(|own| &own.equation).zip(halves..outputs.len());
+        for (equation, index) in model.level.iter().zip(fields..rates).chain(chosen) {
             let off = values.output(index);
             let is_off = |lane: &usize| is_state(*lane) && off.excludes_zero(*lane);
             if let Some(lane) = (0..TAPE_LANES).find(is_off) {

@@ -81,15 +81,6 @@ impl Judging<'_> {
     ) -> Result<(), JudgeError> {
         let kept: Vec<usize> = (0..place.kept.len()).filter(|index| place.kept[*index]).collect();
         let field = PrimeFieldStates::new(self, sampler);
-        for (value, text) in self.halves_of_chart(place) {
-            for answer in field.test(&[Query::of(vec![value])])? {
-                if let Answer::NonZero(found) = answer
-                    && let Some(size) = self.magnitude_on_parts(sampler, &found, value)
-                {
-                    return Err(self.off_level(text.to_string(), size));
-                }
-            }
-        }
         for (values, is_rate) in [(&self.common.level, false), (&self.common.level_rates, true)] {
             if is_rate && self.is_at_rest(sampler)? {
                 break;

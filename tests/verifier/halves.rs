@@ -140,14 +140,14 @@ fn a_chart_has_to_lead_to_the_half_of_the_file() {
             claims.iter().map(|own| format!("[[claim]]\nidentity = '{own}'\n")).collect();
         let text = format!(
             "title = 'x'\n[state]\nQ = 'matrix(2, 2, -1..1)'\n[field]\n\"Q'\" = 'Q*[[0, −1], [1, 0]]'\n\
-             [level]\nequations = ['Qᵀ*Q = E', 'det(Q) = 1']\n[level.chart]\ninputs = {{ a = '-1..1' }}\n\
+             [level]\nequations = ['Qᵀ*Q = E(2)', 'det(Q) = 1']\n[level.chart]\ninputs = {{ a = '-1..1' }}\n\
              Q = '[[{first}*cos(a), −{first}*sin(a)], [sin(a), cos(a)]]'\n{claims}"
         );
         let case = Case::parse(&text, &[]).map_err(|error| error.to_string())?;
         let found = judge(&case, &Options::default()).map_err(|error| error.to_string())?;
         Ok::<Vec<Verdict>, String>(found.claims.into_iter().map(|own| own.verdict).collect())
     };
-    let claims = ["det(Q) = 1", "Q[1,1] = Q[2,2]", "Q = E"];
+    let claims = ["det(Q) = 1", "Q[1,1] = Q[2,2]", "Q = E(2)"];
     use Verdict::{Proved, Refuted};
     assert_eq!(of("1", &claims), Ok(vec![Proved, Proved, Refuted]));
     // Into the other half, and into both.
