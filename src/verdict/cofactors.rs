@@ -10,7 +10,7 @@ use super::sampler::Sampler;
 use super::zero_sets::vanishes_nowhere_openly_on;
 use crate::claim::LevelSubset;
 use crate::graph::{Expr, Fault, Graph, Need, record};
-use crate::mechanics::{Chart, System, combinations};
+use crate::mechanics::{Chart, Draw, System, combinations};
 use crate::proof::{Extent, are_coprime, is_nowhere_zero, sign};
 
 /// A cofactor, or a part of it that must have a value.
@@ -92,10 +92,22 @@ impl Judging<'_> {
         };
         poles.retain(|pole| (moves(pole) || !misses_some) && !is_of_field(pole));
         if !misses_some {
+            // For a listed value a pole may be another one.
+            let is_listed = |value: &Expr| {
+                let inputs = self.graph.inputs_of(*value).into_iter();
+                let made = inputs
+                    .filter(|own| *own < parameters)
+                    .filter_map(|own| sampler.made().get(own));
+                let mut draws = made.flat_map(|own| sampler.graph().inputs_of(*own));
+                draws.any(|draw| matches!(sampler.recipes()[draw], Draw::OneOf(_)))
+            };
+            let has_lists = components.iter().any(is_listed);
             // Where F = 0 lies in no pole of the field, most of its states have motions.
             let is_on_few = |pole: &Expr| -> Result<bool, Fault> {
                 let seed = self.options.seed;
                 Ok(of_field.contains(pole)
+                    && !has_lists
+                    && !is_listed(pole)
                     && vanishes_nowhere_openly_on(self.graph, components, *pole, parameters, seed)?)
             };
             let mut open = Vec::new();

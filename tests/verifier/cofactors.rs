@@ -385,6 +385,12 @@ fn poles_of_the_field_count_where_they_are_on_few_zeros() {
     assert_eq!(of(&central, &wrong), Verdict::Refuted);
     let scalar = [["x", "x*y/sqrt(x^2 + z^2)"], ["y", "1"], ["z", "x"]];
     assert_eq!(of(&scalar, &relation("x", "y/sqrt(x^2 + z^2)")), Verdict::Proved);
+    let listed = "title = 't'\n[parameters]\na = 'one of 0, 1'\n[state]\nx = '-1..1'\ny = '-1..1'\n[field]\n\
+                  \"x'\" = 'sin(a*y^2 + x)/(a*y^2 + x)*(a*x + (1-a))'\n\"y'\" = '0'\n[[claim]]\n\
+                  invariant-relation = 'x'\ncofactor = 'sin(a*y^2 + x)/(a*y^2 + x)*(a + (1-a)/(a*y^2 + x))'\n";
+    let case = Case::parse(listed, &[]).expect("a case");
+    let found = judge(&case, &Options::default()).expect("a report");
+    assert_ne!(found.claims[0].verdict, Verdict::Proved, "for a = 0 the pole is F = 0");
     // All of F = 0, or a half of it, lies in a pole; and a pole that the field has not.
     for (field, function, cofactor) in [
         ([["x", "sin(x)/x"], ["y", "0"], ["z", "0"]], "x", "sin(x)/x^2"),
