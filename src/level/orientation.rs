@@ -107,7 +107,7 @@ impl HalfOfFrame<'_> {
         equations.iter().map(value).fold(Expr::zero(), |sum, value| sum + value * value)
     }
 
-    /// Same sum at one point of the half.
+    /// The same sum at one point of the half.
     fn squares_at_a_point(self, equations: &[usize]) -> Expr {
         let parameters = vec![Expr::one(); self.model.free_components()];
         let state = vec![Expr::zero(); self.model.dimension()];

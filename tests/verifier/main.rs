@@ -4,6 +4,7 @@ mod angles;
 mod arbitrary;
 mod assumptions;
 mod bodies;
+mod cofactor_poles;
 mod cofactors;
 mod combinations;
 #[path = "../common/mod.rs"]

@@ -3,7 +3,7 @@
 
 use std::cmp::Ordering;
 
-/// Sorts values in a stable way, as fast to compile as it may be to run: for what is not sorted in a loop.
+/// Stable sorting that is quick to compile, for slices that are not sorted in a hot loop.
 pub trait StableOrder<T> {
     /// Sorts by a comparison.
     fn order_by(&mut self, compare: impl FnMut(&T, &T) -> Ordering);

@@ -1,4 +1,4 @@
-//! Arctangents that are sums of others: if Π (1 + i u_j)^(n_j) has the argument eπ/4 up to half turns, Σ n_j atan u_j
+//! Arctangents that are sums of others: if Π (1 + i n_j u_j), n_j = ±1, has the argument eπ/4 up to half turns, Σ n_j atan u_j
 //! is eπ/4 + mπ, with the whole number m that the ranges leave.
 //!
 //! docs/soundness.md, "Sums of arctangents".
@@ -49,7 +49,7 @@ impl ArctangentSum {
     }
 }
 
-/// A number times Π (1 + i u_j)^(± 1), by real and imaginary part, without its divisor.
+/// The product Π (1 ± i u_j), by real and imaginary part.
 fn product(factors: impl IntoIterator<Item = (Expr, i64)>) -> [Expr; 2] {
     factors.into_iter().fold([number(1), number(0)], |[a, b], (u, sign)| {
         let u = u * number(sign);
@@ -57,7 +57,7 @@ fn product(factors: impl IntoIterator<Item = (Expr, i64)>) -> [Expr; 2] {
     })
 }
 
-/// Which of the parts of a complex number is 0 if its argument is eπ/4 up to half turns: a − b stands for e = 1.
+/// A combination of the parts of a complex number that is 0 if its argument is eπ/4 up to half turns.
 fn defect([a, b]: [Expr; 2], eighths: i64) -> Expr {
     match eighths {
         0 => b,

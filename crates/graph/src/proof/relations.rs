@@ -182,7 +182,7 @@ pub fn rows(
 /// Gives the functions of a graph symbols, one for each element of a basis of their arguments; also returns the error
 /// of the relations between these.
 ///
-/// The arguments of functions of functions are compared once more, with the relations inside of them.
+/// The arguments of functions of functions are compared once more for each level, with the relations inside of them.
 pub fn symbols(
     graph: &Graph,
     reached: &[bool],

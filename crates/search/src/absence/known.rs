@@ -29,28 +29,6 @@ pub struct ProvedIntegrals {
     uncounted: Vec<Formula>,
 }
 
-/// Lists the functions that a claim about a bracket names, component by component, in the names of the case.
-fn functions_of_bracket(case: &Case, kind: &ClaimKind) -> Result<Vec<Formula>, SearchError> {
-    let named = match kind {
-        ClaimKind::Casimir(own) => vec![own.function().clone()],
-        ClaimKind::Involution(own) => own.functions().to_vec(),
-        _ => return Ok(Vec::new()),
-    };
-    let mut found = Vec::new();
-    for own in named {
-        // The bracket may have variables of its own.
-        if let Ok(own) = Formula::parse(own.text(), &case.model.vocabulary) {
-            found.extend(components(&own)?);
-        }
-    }
-    Ok(found)
-}
-
-/// Text of a formula without spaces.
-fn plain(formula: &Formula) -> String {
-    formula.text().split_whitespace().collect()
-}
-
 /// Space of the polynomials in known integrals up to a degree.
 pub struct ProductSpace {
     /// Number of independent polynomials among them.
@@ -248,6 +226,28 @@ impl ProvedIntegrals {
         let dimension = rank(case, &terms, &products, &[], effort)?;
         Ok(dimension.map(|dimension| ProductSpace { dimension, formulas: terms }))
     }
+}
+
+/// Lists the functions that a claim about a bracket names, component by component, in the names of the case.
+fn functions_of_bracket(case: &Case, kind: &ClaimKind) -> Result<Vec<Formula>, SearchError> {
+    let named = match kind {
+        ClaimKind::Casimir(own) => vec![own.function().clone()],
+        ClaimKind::Involution(own) => own.functions().to_vec(),
+        _ => return Ok(Vec::new()),
+    };
+    let mut found = Vec::new();
+    for own in named {
+        // The bracket may have variables of its own.
+        if let Ok(own) = Formula::parse(own.text(), &case.model.vocabulary) {
+            found.extend(components(&own)?);
+        }
+    }
+    Ok(found)
+}
+
+/// Text of a formula without spaces.
+fn plain(formula: &Formula) -> String {
+    formula.text().split_whitespace().collect()
 }
 
 /// Whether a parameter has a list of values.
