@@ -78,10 +78,8 @@ impl Judging<'_> {
             return false;
         }
         let (run, layout) = self.lay_out(sampler, std::iter::once(item), false);
-        let has_value = |numbers: &Vec<Rational>| {
-            layout.existing(&run.at(&domain, &at(numbers)), &layout.spans[0])[0]
-        };
-        !around(sampler, numbers).iter().any(has_value)
+        let all = around(sampler, numbers);
+        !all.iter().any(|numbers| has_values(sampler, &domain, numbers, (&run, &layout)))
     }
 
     /// Values that end at 0 what has a value: the arguments of roots, logarithms and broken powers.
@@ -108,14 +106,18 @@ impl Judging<'_> {
         let all = neighbours(sampler, index);
         // Balls take less time than exact numbers, which know more.
         let (balls, exact) = (ArbBall::new(LADDER_BITS[0]), Mixed::new(LADDER_BITS[0]));
-        let in_balls = |numbers: &Vec<Rational>| {
-            let values = run.at(&balls, &sampler.made_from(&balls, numbers));
-            layout.existing(&values, &layout.spans[0])[0]
-        };
-        let in_exact = |numbers: &Vec<Rational>| {
-            let values = run.at(&exact, &sampler.made_from(&exact, numbers));
-            layout.existing(&values, &layout.spans[0])[0]
-        };
-        all.iter().any(in_balls) || all.iter().any(in_exact)
+        all.iter().any(|numbers| has_values(sampler, &balls, numbers, (run, layout)))
+            || all.iter().any(|numbers| has_values(sampler, &exact, numbers, (run, layout)))
     }
+}
+
+/// Whether all that the first claim of a layout requires has a value at the state made from some draws.
+fn has_values<D: Enclosing + Clone>(
+    sampler: &Sampler,
+    domain: &D,
+    numbers: &[Rational],
+    (run, layout): (&Run, &OutputLayout),
+) -> bool {
+    let values = run.at(domain, &sampler.made_from(domain, numbers));
+    layout.existing(&values, &layout.spans[0])[0]
 }
